@@ -1,0 +1,61 @@
+//! A cloth's material, as a textile laboratory measures it.
+//!
+//! Everything is per width of cloth and in the paper's units (cm, gram-force); the laws that turn
+//! these numbers into forces are in [`tension`](Tension), bending (2) and shear (3), (4).
+//! A [`Fabric`] can only be made with values inside the ranges that [`InvalidFabric`] names.
+
+mod kes;
+mod swatch;
+mod tension;
+
+pub use kes::{KesDirection, KesSheet};
+pub use swatch::{SWATCHES, swatch};
+pub use tension::{Curve, Tension};
+
+/// One of the two thread directions of a woven cloth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Yarn {
+    /// Along the loom.
+    Warp,
+    /// Across the loom.
+    Weft,
+}
+
+/// What was measured along one thread direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Direction {
+    /// Tension per width against strain [gf/cm].
+    pub tension: Tension,
+    /// Bending moment per width and curvature, M_BN of (2) [gf·cm].
+    pub bending: f64,
+    /// Shear force per width and radian, M_SH of (3) [gf/cm].
+    pub shear: f64,
+}
+
+/// Friction coefficients [-].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Friction {
+    /// Against a body.
+    pub body: f64,
+    /// Against cloth.
+    pub cloth: f64,
+}
+
+/// A measured cloth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fabric {
+    /// What it is called.
+    pub name: String,
+    /// Who measured it, and where that is written.
+    pub source: String,
+    /// Weight per area [gf/cm²].
+    pub weight: f64,
+    /// Thickness [cm].
+    pub thickness: f64,
+    /// Friction where a scene gives none.
+    pub friction: Friction,
+    /// Along the warp.
+    pub warp: Direction,
+    /// Along the weft.
+    pub weft: Direction,
+}

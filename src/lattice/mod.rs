@@ -1,0 +1,90 @@
+//! The sheet as geometry (paper C-i, figure 6): nodes at a pitch, joined by rods along warp and
+//! weft, cut on grain from an outline. No material and no positions in space are known here.
+//!
+//! *Cloth coordinates* are (warp, weft) [cm], on the flat cloth, from the outline's centre.
+//! *Outline coordinates* are the (x, y) the outline was drawn in, from the same centre; the warp
+//! direction stands at the grain angle to their x axis.
+
+mod cut;
+mod outline;
+
+pub use cut::CutError;
+pub use outline::{Edge, Outline, OutlineError};
+
+use crate::{fabric::Yarn, math::Vec2};
+
+/// A piece of cloth before it is divided into nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// Where the cloth ends.
+    pub outline: Outline,
+    /// Angle of the warp against the outline's x axis [rad].
+    pub grain: f64,
+    /// Wished distance between nodes [cm].
+    pub pitch: f64,
+}
+
+/// A rod between neighbouring nodes, along one yarn; it pulls by (5).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rod {
+    /// Its ends, in the direction of the yarn.
+    pub nodes: [u32; 2],
+    /// Its yarn.
+    pub yarn: Yarn,
+    /// Length at rest [cm].
+    pub rest: f64,
+    /// Width of cloth that it stands for [cm]: half a pitch at an edge.
+    pub width: f64,
+}
+
+/// Two opposite rods of a node; they bend by (6).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bend {
+    /// Before, at and after the joint, in the direction of the yarn.
+    pub nodes: [u32; 3],
+    /// Their yarn.
+    pub yarn: Yarn,
+    /// Length of cloth whose curvature the joint stands for: the mean of both rods [cm].
+    pub length: f64,
+    /// Width of cloth that it stands for [cm].
+    pub width: f64,
+    /// Angle between the rods at rest [rad]: 0 but beside an outline that the grid does not follow.
+    pub rest_angle: f64,
+}
+
+/// The angle between a warp and a weft rod of a node; it shears by (7).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// The node, its neighbour along the warp, its neighbour along the weft.
+    pub nodes: [u32; 3],
+    /// Angle between the rods at rest [rad].
+    pub rest_angle: f64,
+    /// Area of cloth that it stands for: a quarter of its cell [cm²].
+    pub area: f64,
+}
+
+/// A mesh of the lattice: four nodes counter-clockwise in cloth coordinates,
+/// (0, 0), (1, 0), (1, 1), (0, 1) in steps of (warp, weft).
+pub type Cell = [u32; 4];
+
+/// A piece divided into nodes. Every list is in lattice order: rows along the weft, within a row
+/// along the warp.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Lattice {
+    /// Greatest distance between neighbours in the grid [cm].
+    pub pitch: f64,
+    /// Cloth coordinates of each node (warp, weft) [cm].
+    pub coordinates: Vec<Vec2>,
+    /// Grid indices of each node (along the warp, along the weft).
+    pub grid: Vec<[i32; 2]>,
+    /// Area of cloth that each node carries [cm²].
+    pub area: Vec<f64>,
+    /// Rods.
+    pub rods: Vec<Rod>,
+    /// Pairs of opposite rods.
+    pub bends: Vec<Bend>,
+    /// Corners.
+    pub corners: Vec<Corner>,
+    /// Cells.
+    pub cells: Vec<Cell>,
+}

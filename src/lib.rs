@@ -1,0 +1,2 @@
+//! soen
+pub mod math;
