@@ -1,0 +1,194 @@
+//! Finds rest: node by node to each node's own equilibrium (paper C-ii), until the whole is at rest.
+
+use crate::{
+    body::Bodies,
+    certificate::{Certificate, DrapeShape},
+    fabric::Fabric,
+    lattice::{Edge, Lattice, Piece},
+    math::{Vec2, Vec3},
+};
+
+/// Where the flat cloth starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Where the outline's centre is [cm].
+    pub centre: Vec3,
+    /// The outline's x axis in space, of length 1.
+    pub x_axis: Vec3,
+    /// The outline's y axis in space, of length 1, at a right angle to x.
+    pub y_axis: Vec3,
+}
+
+/// What a hold takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Grip {
+    /// The node nearest to a point in outline coordinates [cm].
+    Point(Vec2),
+    /// Every node on an edge of the outline.
+    Edge(Edge),
+}
+
+/// Points that are held in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hold {
+    /// What is held.
+    pub grip: Grip,
+    /// Whether the slope is held too, as in a vice (`physics.md` §3: a half cell).
+    pub clamp: bool,
+    /// Where it is carried before the rest is found [cm].
+    pub carry: Vec3,
+}
+
+/// Which laws act; weight always does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Laws {
+    /// Rods pull (5).
+    pub tension: bool,
+    /// Opposite rods bend (6).
+    pub bending: bool,
+    /// Corners shear (7).
+    pub shear: bool,
+}
+
+/// How a node's forces are counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceModel {
+    /// Minus the gradient of the whole energy.
+    Lattice,
+    /// Figures 7–9 to the letter: 4 tensions, 2 bends and 4 shears of the node's own.
+    Paper,
+}
+
+/// A cloth, a body and a start.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The cloth's material.
+    pub fabric: Fabric,
+    /// The cloth's cut.
+    pub piece: Piece,
+    /// Where it starts.
+    pub placement: Placement,
+    /// What is held.
+    pub holds: Vec<Hold>,
+    /// What it may rest on.
+    pub bodies: Bodies,
+    /// Coulomb friction against the bodies [-].
+    pub friction: f64,
+    /// Thickness of the cloth in contact [cm].
+    pub thickness: f64,
+    /// Which laws act.
+    pub laws: Laws,
+    /// How forces are counted.
+    pub forces: ForceModel,
+    /// Seed of the perturbation that lets folds begin.
+    pub seed: u64,
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Residual at which a node counts as at rest [-].
+    pub tolerance: f64,
+    /// How many shapes between start and rest are kept.
+    pub frames: usize,
+}
+
+/// Where a run is; the watcher answers whether to go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Which level, from 0 for the coarsest, and how many there are.
+    pub level: (usize, usize),
+    /// Nodes of this level.
+    pub nodes: usize,
+    /// Sweeps on this level so far.
+    pub sweeps: usize,
+    /// Greatest residual so far known [-]; infinite before the first.
+    pub residual: f64,
+}
+
+/// The work done on one level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    /// Pitch [cm].
+    pub spacing: f64,
+    /// Nodes.
+    pub nodes: usize,
+    /// Sweeps over all nodes.
+    pub sweeps: usize,
+    /// Joint steps: system (8) written for all nodes at once.
+    pub joint_steps: usize,
+}
+
+/// What came of it: a shape and the proof, or the lack of one.
+#[derive(Clone, Debug)]
+pub struct Settled {
+    /// The finest lattice.
+    pub lattice: Lattice,
+    /// Positions of its nodes [cm].
+    pub positions: Vec<Vec3>,
+    /// Normal force of the bodies on each node [gf].
+    pub contact: Vec<f64>,
+    /// The proof of rest.
+    pub certificate: Certificate,
+    /// Whether all of the certificate holds at the tolerance.
+    pub converged: bool,
+    /// Figures of the shape.
+    pub shape: DrapeShape,
+    /// Levels from coarse to fine.
+    pub levels: Vec<Level>,
+    /// Updates of single nodes over all levels.
+    pub node_updates: u64,
+    /// Shapes between start and rest, on the finest lattice.
+    pub frames: Vec<Vec<Vec3>>,
+}
+
+/// A problem that has no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Unsolvable {
+    /// The cloth could not be cut.
+    #[error(transparent)]
+    Cut(#[from] crate::lattice::CutError),
+    /// A hold takes nothing.
+    #[error("hold {index} is at ({x}, {y}) cm, outside the cloth")]
+    HoldOutside {
+        /// Which hold, from 1.
+        index: usize,
+        /// Outline coordinate [cm].
+        x: f64,
+        /// Outline coordinate [cm].
+        y: f64,
+    },
+    /// The start is inside a body.
+    #[error("the cloth starts inside {part:?}: {depth} cm deep at ({x}, {y}, {z}) cm")]
+    StartsInside {
+        /// The part's name.
+        part: String,
+        /// How deep [cm].
+        depth: f64,
+        /// Where [cm].
+        x: f64,
+        /// Where [cm].
+        y: f64,
+        /// Where [cm].
+        z: f64,
+    },
+    /// Nothing holds the cloth: no hold, and no body under it.
+    #[error("nothing carries the cloth: give a [[hold]], or a [[body]] below it")]
+    Falls,
+}
+
+/// Solves a problem; `watch` is asked between sweeps whether to go on.
+///
+/// An unconverged drape is a value whose certificate says so.
+///
+/// # Errors
+/// [`Unsolvable`] where no start can be made.
+pub fn settle(
+    problem: &Problem,
+    settings: &Settings,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Settled, Unsolvable> {
+    let _ = (problem, settings, watch);
+    Err(Unsolvable::Falls)
+}
