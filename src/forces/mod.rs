@@ -1,0 +1,16 @@
+//! Laws × lattice: what pulls a node (paper C-i, figures 7–9; design §3).
+//!
+//! One law, one file: [`RodLaw`] is tension (5); [`turn`] is bending (6) and shear (7).
+//! [`Sheet`] gathers them over a lattice: energy, forces, and the blocks of their derivatives.
+
+mod angle;
+mod paper;
+mod rod;
+mod sheet;
+
+pub use angle::{
+    Turn, TurnStiffness, angle_between, turn, turn_stiffness, turn_stiffness_positive,
+};
+pub use paper::paper_forces;
+pub use rod::RodLaw;
+pub use sheet::{Clamp, Laws, Pull, Sheet};

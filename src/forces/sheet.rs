@@ -1,0 +1,416 @@
+//! The laws gathered over a lattice: a node's own pull for the sweeps, and whole-cloth sums.
+
+use super::{
+    RodLaw,
+    angle::{turn, turn_stiffness, turn_stiffness_positive},
+};
+use crate::{
+    fabric::{Direction, Fabric, Yarn},
+    lattice::Lattice,
+    math::{Mat3, Vec3},
+};
+
+/// Which laws act; weight always does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Laws {
+    /// Rods pull (5).
+    pub tension: bool,
+    /// Opposite rods bend (6).
+    pub bending: bool,
+    /// Corners shear (7).
+    pub shear: bool,
+}
+
+impl Default for Laws {
+    fn default() -> Self {
+        Self { tension: true, bending: true, shear: true }
+    }
+}
+
+/// A joint at a vice: the held slope on one side, a rod on the other, a half cell apart, so that
+/// its bending is doubled (`physics.md` §3: without that the error is first order).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clamp {
+    /// The held node and its free neighbour.
+    pub nodes: [u32; 2],
+    /// The direction from the held node that the vice keeps, of length 1.
+    pub slope: Vec3,
+    /// Yarn of the rod.
+    pub yarn: Yarn,
+    /// Length of the rod at rest [cm].
+    pub length: f64,
+    /// Width of cloth that it stands for [cm].
+    pub width: f64,
+}
+
+/// A rod by the numbers of its ends.
+#[derive(Clone, Copy, Debug)]
+struct SheetRod {
+    nodes: [u32; 2],
+    yarn: Yarn,
+    rest: f64,
+    width: f64,
+    floor: f64,
+}
+
+/// An angle between the rods `from → to` of two pairs of nodes.
+#[derive(Clone, Copy, Debug)]
+struct SheetAngle {
+    nodes: [u32; 3],
+    stiffness: f64,
+    rest: f64,
+    /// A bend has its node in the middle of the path; a corner has it first.
+    bend: bool,
+}
+
+/// A clamp joint with its stiffness [gf·cm].
+#[derive(Clone, Copy, Debug)]
+struct SheetClamp {
+    nodes: [u32; 2],
+    slope: Vec3,
+    stiffness: f64,
+}
+
+/// Where a node appears in an element, and as which of its nodes.
+#[derive(Clone, Copy, Debug)]
+enum Role {
+    Rod(u32, u8),
+    Angle(u32, u8),
+    Clamp(u32),
+}
+
+/// The force on a node [gf] and minus its derivative by the node's position [gf/cm].
+#[derive(Clone, Copy, Debug)]
+pub struct Pull {
+    /// The force.
+    pub force: Vec3,
+    /// The stiffness against moving this node alone, positive semi-definite.
+    pub stiffness: Mat3,
+}
+
+/// A lattice of one fabric under the laws that act.
+#[derive(Clone, Debug)]
+pub struct Sheet<'a> {
+    fabric: &'a Fabric,
+    rods: Vec<SheetRod>,
+    angles: Vec<SheetAngle>,
+    clamps: Vec<SheetClamp>,
+    weights: Vec<f64>,
+    roles: Vec<Role>,
+    first_role: Vec<u32>,
+}
+
+impl<'a> Sheet<'a> {
+    /// Gives a lattice the laws of a fabric.
+    #[must_use]
+    pub fn new(lattice: &Lattice, fabric: &'a Fabric, laws: Laws, clamps: &[Clamp]) -> Self {
+        let direction = |yarn| direction(fabric, yarn);
+        let rods = lattice.rods.iter().filter(|_| laws.tension).map(|rod| SheetRod {
+            nodes: rod.nodes,
+            yarn: rod.yarn,
+            rest: rod.rest,
+            width: rod.width,
+            floor: euler_load(direction(rod.yarn).bending, rod.rest),
+        });
+        let bends = lattice.bends.iter().filter(|_| laws.bending).map(|bend| SheetAngle {
+            nodes: bend.nodes,
+            stiffness: direction(bend.yarn).bending * bend.width / bend.length,
+            rest: bend.rest_angle,
+            bend: true,
+        });
+        let shear = 0.5 * (fabric.warp.shear + fabric.weft.shear);
+        let corners = lattice.corners.iter().filter(|_| laws.shear).map(|corner| SheetAngle {
+            nodes: corner.nodes,
+            stiffness: shear * corner.area,
+            rest: corner.rest_angle,
+            bend: false,
+        });
+        let angles = bends.chain(corners).filter(|angle| angle.stiffness > 0.0).collect();
+        let clamps = clamps.iter().filter(|_| laws.bending).map(|clamp| SheetClamp {
+            nodes: clamp.nodes,
+            slope: clamp.slope,
+            stiffness: 2.0 * direction(clamp.yarn).bending * clamp.width / clamp.length,
+        });
+        let mut sheet = Self {
+            fabric,
+            rods: rods.collect(),
+            angles,
+            clamps: clamps.collect(),
+            weights: lattice.area.iter().map(|area| area * fabric.weight).collect(),
+            roles: Vec::new(),
+            first_role: Vec::new(),
+        };
+        sheet.list_roles();
+        sheet
+    }
+
+    /// Weight of each node [gf].
+    #[must_use]
+    pub fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    /// How many nodes there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.weights.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.weights.is_empty()
+    }
+
+    /// Every pair of nodes that a law joins, each once, in a fixed order.
+    #[must_use]
+    pub fn joined(&self) -> Vec<[u32; 2]> {
+        let rods = self.rods.iter().map(|rod| rod.nodes);
+        let angles = self.angles.iter().flat_map(|angle| {
+            let [a, b, c] = angle.nodes;
+            [[a, b], [b, c], [a, c]]
+        });
+        let clamps = self.clamps.iter().map(|clamp| clamp.nodes);
+        let mut pairs: Vec<[u32; 2]> =
+            rods.chain(angles).chain(clamps).map(|[a, b]| [a.min(b), a.max(b)]).collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        pairs
+    }
+
+    /// Energy of cloth and weight [gf·cm].
+    #[must_use]
+    pub fn energy(&self, at: &[Vec3]) -> f64 {
+        let mut energy = 0.0;
+        for rod in &self.rods {
+            energy += self.law(rod).energy(&rod.along(at));
+        }
+        for angle in &self.angles {
+            let (u, v) = angle.rods(at);
+            energy += turn(&u, &v, angle.stiffness, angle.rest).energy;
+        }
+        for clamp in &self.clamps {
+            energy += turn(&clamp.slope, &clamp.along(at), clamp.stiffness, 0.0).energy;
+        }
+        for (weight, position) in self.weights.iter().zip(at) {
+            energy += weight * position.z;
+        }
+        energy
+    }
+
+    /// The force on every node [gf].
+    #[must_use]
+    pub fn forces(&self, at: &[Vec3]) -> Vec<Vec3> {
+        let mut forces: Vec<Vec3> =
+            self.weights.iter().map(|weight| Vec3::new(0.0, 0.0, -weight)).collect();
+        for rod in &self.rods {
+            let pull = self.law(rod).pull(&rod.along(at));
+            forces[rod.nodes[0] as usize] += pull;
+            forces[rod.nodes[1] as usize] -= pull;
+        }
+        for angle in &self.angles {
+            let (u, v) = angle.rods(at);
+            let law = turn(&u, &v, angle.stiffness, angle.rest);
+            for (node, slope) in angle.nodes.iter().zip(angle.spread(&law.by_u, &law.by_v)) {
+                forces[*node as usize] -= slope;
+            }
+        }
+        for clamp in &self.clamps {
+            let law = turn(&clamp.slope, &clamp.along(at), clamp.stiffness, 0.0);
+            forces[clamp.nodes[0] as usize] += law.by_v;
+            forces[clamp.nodes[1] as usize] -= law.by_v;
+        }
+        forces
+    }
+
+    /// Hands every block of the second derivative of the energy [gf/cm] to `add(row, column, block)`:
+    /// diagonal blocks, and each pair of an element's nodes once. With `positive`, every element's
+    /// negative directions are left out.
+    pub fn stiffness(&self, at: &[Vec3], positive: bool, add: &mut dyn FnMut(u32, u32, &Mat3)) {
+        for rod in &self.rods {
+            let block = self.law(rod).stiffness(&rod.along(at), positive);
+            let [a, b] = rod.nodes;
+            add(a, a, &block);
+            add(b, b, &block);
+            add(a, b, &-block);
+        }
+        let blocks_of = if positive { turn_stiffness_positive } else { turn_stiffness };
+        for angle in &self.angles {
+            let (u, v) = angle.rods(at);
+            let blocks = blocks_of(&u, &v, angle.stiffness, angle.rest);
+            let signs = angle.signs();
+            for (k, &row) in angle.nodes.iter().enumerate() {
+                for (l, &column) in angle.nodes.iter().enumerate().skip(k) {
+                    let ((ku, kv), (lu, lv)) = (signs[k], signs[l]);
+                    let block = blocks.uu * (ku * lu)
+                        + blocks.uv * (ku * lv)
+                        + blocks.uv.transpose() * (kv * lu)
+                        + blocks.vv * (kv * lv);
+                    add(row, column, &block);
+                }
+            }
+        }
+        for clamp in &self.clamps {
+            let block = blocks_of(&clamp.slope, &clamp.along(at), clamp.stiffness, 0.0).vv;
+            let [held, next] = clamp.nodes;
+            add(held, held, &block);
+            add(next, next, &block);
+            add(held, next, &-block);
+        }
+    }
+
+    /// The force on one node and its own stiffness: the terms of (8).
+    #[must_use]
+    pub fn pull(&self, node: usize, at: &[Vec3]) -> Pull {
+        let mut force = Vec3::new(0.0, 0.0, -self.weights[node]);
+        let mut stiffness = Mat3::zeros();
+        for role in self.roles_of(node) {
+            match *role {
+                Role::Rod(index, end) => {
+                    let rod = &self.rods[index as usize];
+                    let (law, along) = (self.law(rod), rod.along(at));
+                    force += law.pull(&along) * if end == 0 { 1.0 } else { -1.0 };
+                    stiffness += law.stiffness(&along, true);
+                }
+                Role::Angle(index, place) => {
+                    let angle = &self.angles[index as usize];
+                    let (u, v) = angle.rods(at);
+                    let law = turn(&u, &v, angle.stiffness, angle.rest);
+                    let blocks = turn_stiffness_positive(&u, &v, angle.stiffness, angle.rest);
+                    let (by_u, by_v) = angle.signs()[place as usize];
+                    force -= law.by_u * by_u + law.by_v * by_v;
+                    stiffness += blocks.uu * (by_u * by_u)
+                        + (blocks.uv + blocks.uv.transpose()) * (by_u * by_v)
+                        + blocks.vv * (by_v * by_v);
+                }
+                Role::Clamp(index) => {
+                    let clamp = &self.clamps[index as usize];
+                    let along = clamp.along(at);
+                    force -= turn(&clamp.slope, &along, clamp.stiffness, 0.0).by_v;
+                    stiffness +=
+                        turn_stiffness_positive(&clamp.slope, &along, clamp.stiffness, 0.0).vv;
+                }
+            }
+        }
+        Pull { force, stiffness }
+    }
+
+    /// The force on one node [gf]; with `own_only`, without the reactions of its neighbours' bends
+    /// and corners.
+    #[must_use]
+    pub fn force(&self, node: usize, at: &[Vec3], own_only: bool) -> Vec3 {
+        let mut force = Vec3::new(0.0, 0.0, -self.weights[node]);
+        for role in self.roles_of(node) {
+            match *role {
+                Role::Rod(index, end) => {
+                    let rod = &self.rods[index as usize];
+                    let pull = self.law(rod).pull(&rod.along(at));
+                    force += pull * if end == 0 { 1.0 } else { -1.0 };
+                }
+                Role::Angle(index, place) => {
+                    let angle = &self.angles[index as usize];
+                    if own_only && angle.own_place() != place {
+                        continue;
+                    }
+                    let (u, v) = angle.rods(at);
+                    let law = turn(&u, &v, angle.stiffness, angle.rest);
+                    let (by_u, by_v) = angle.signs()[place as usize];
+                    force -= law.by_u * by_u + law.by_v * by_v;
+                }
+                Role::Clamp(index) => {
+                    let clamp = &self.clamps[index as usize];
+                    force -= turn(&clamp.slope, &clamp.along(at), clamp.stiffness, 0.0).by_v;
+                }
+            }
+        }
+        force
+    }
+
+    fn law(&self, rod: &SheetRod) -> RodLaw<'a> {
+        let tension = &direction(self.fabric, rod.yarn).tension;
+        RodLaw { tension, rest: rod.rest, width: rod.width, floor: rod.floor }
+    }
+
+    fn roles_of(&self, node: usize) -> &[Role] {
+        &self.roles[self.first_role[node] as usize..self.first_role[node + 1] as usize]
+    }
+
+    /// Sorts the roles by node: a counting sort, so that a node's roles keep the elements' order.
+    fn list_roles(&mut self) {
+        let mut named: Vec<(u32, Role)> = Vec::new();
+        for (index, rod) in self.rods.iter().enumerate() {
+            for (end, node) in rod.nodes.iter().enumerate() {
+                named.push((*node, Role::Rod(index as u32, end as u8)));
+            }
+        }
+        for (index, angle) in self.angles.iter().enumerate() {
+            for (place, node) in angle.nodes.iter().enumerate() {
+                named.push((*node, Role::Angle(index as u32, place as u8)));
+            }
+        }
+        for (index, clamp) in self.clamps.iter().enumerate() {
+            named.push((clamp.nodes[1], Role::Clamp(index as u32)));
+        }
+        named.sort_by_key(|(node, _)| *node);
+        let mut first = vec![0_u32; self.len() + 1];
+        for (node, _) in &named {
+            first[*node as usize + 1] += 1;
+        }
+        for node in 0..self.len() {
+            first[node + 1] += first[node];
+        }
+        self.first_role = first;
+        self.roles = named.into_iter().map(|(_, role)| role).collect();
+    }
+}
+
+impl SheetRod {
+    fn along(&self, at: &[Vec3]) -> Vec3 {
+        at[self.nodes[1] as usize] - at[self.nodes[0] as usize]
+    }
+}
+
+impl SheetAngle {
+    /// The two rods: before and after a bend's node; from a corner's node.
+    fn rods(&self, at: &[Vec3]) -> (Vec3, Vec3) {
+        let [a, b, c] = self.nodes.map(|node| at[node as usize]);
+        if self.bend { (b - a, c - b) } else { (b - a, c - a) }
+    }
+
+    /// How u and v change with each of the three nodes.
+    fn signs(&self) -> [(f64, f64); 3] {
+        if self.bend {
+            [(-1.0, 0.0), (1.0, -1.0), (0.0, 1.0)]
+        } else {
+            [(-1.0, -1.0), (1.0, 0.0), (0.0, 1.0)]
+        }
+    }
+
+    fn spread(&self, by_u: &Vec3, by_v: &Vec3) -> [Vec3; 3] {
+        self.signs().map(|(u, v)| by_u * u + by_v * v)
+    }
+
+    /// Which of its nodes the angle belongs to.
+    fn own_place(&self) -> u8 {
+        u8::from(self.bend)
+    }
+}
+
+impl SheetClamp {
+    fn along(&self, at: &[Vec3]) -> Vec3 {
+        at[self.nodes[1] as usize] - at[self.nodes[0] as usize]
+    }
+}
+
+/// What was measured along a yarn.
+fn direction(fabric: &Fabric, yarn: Yarn) -> &Direction {
+    match yarn {
+        Yarn::Warp => &fabric.warp,
+        Yarn::Weft => &fabric.weft,
+    }
+}
+
+/// The compression per width at which a rod of this length buckles, π²·M_BN/b² [gf/cm].
+fn euler_load(bending: f64, length: f64) -> f64 {
+    core::f64::consts::PI * core::f64::consts::PI * bending / (length * length)
+}
