@@ -1,16 +1,22 @@
 //! A cloth's material, as a textile laboratory measures it.
 //!
 //! Everything is per width of cloth and in the paper's units (cm, gram-force); the laws that turn
-//! these numbers into forces are in [`tension`](Tension), bending (2) and shear (3), (4).
-//! A [`Fabric`] can only be made with values inside the ranges that [`InvalidFabric`] names.
+//! these numbers into tensions are in [`Tension`]. [`Fabric::checked`] lets only values pass that a
+//! cloth can have, and [`KesSheet`] converts what other laboratories write.
 
+mod curve;
 mod kes;
+mod limits;
 mod swatch;
 mod tension;
 
-pub use kes::{KesDirection, KesSheet};
+pub use curve::{Curve, InvalidCurve};
+pub use kes::{KesDirection, KesSheet, ShearTest, bending_from_overhang, shear_from_frame};
+pub use limits::{InvalidFabric, Quantity};
 pub use swatch::{SWATCHES, swatch};
-pub use tension::{Curve, Tension};
+pub use tension::{Answer, Tension};
+
+use std::fmt;
 
 /// One of the two thread directions of a woven cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -19,6 +25,15 @@ pub enum Yarn {
     Warp,
     /// Across the loom.
     Weft,
+}
+
+impl fmt::Display for Yarn {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Warp => "warp",
+            Self::Weft => "weft",
+        })
+    }
 }
 
 /// What was measured along one thread direction.
