@@ -1,2 +1,10 @@
 //! soen
 pub mod math;
+mod threads;
+pub mod fabric;
+pub mod lattice;
+pub mod body;
+pub mod forces;
+pub mod contact;
+pub mod certificate;
+pub mod solver;

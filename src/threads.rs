@@ -2,7 +2,7 @@
 //! shared out by place, and nothing is summed across places.
 
 /// Calls `work` on every index of `0..count` and returns the answers in order.
-pub(crate) fn map<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+pub(crate) fn map<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
     #[cfg(feature = "threads")]
     {
         use rayon::prelude::*;
@@ -18,7 +18,7 @@ pub(crate) fn map<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Ve
 pub(crate) fn for_each_chunk<T: Send>(
     entries: &mut [T],
     length: usize,
-    work: impl Fn(usize, &mut [T]) + Sync,
+    work: impl Fn(usize, &mut [T]) + Sync + Send,
 ) {
     #[cfg(feature = "threads")]
     {

@@ -5,7 +5,7 @@ use crate::{
     math::{Pose, Vec3},
 };
 use parry3d::{
-    math::{Pose as ParryPose, Vector},
+    math::{Pose as ParryPose, Rotation, Vector},
     shape::{SharedShape, TriMeshFlags},
 };
 
@@ -106,7 +106,7 @@ impl Part {
     /// # Errors
     /// [`PartError`] where a length is out of range, a hull is flat or a mesh cannot be searched.
     pub fn new(name: String, shape: &Shape, pose: Pose) -> Result<Self, PartError> {
-        let pose = ParryPose::from(pose) * own_turn(shape);
+        let pose = parry_pose(&pose) * own_turn(shape);
         let (shape, nature) = parry_shape(shape)?;
         let centre = shape.compute_aabb(&pose).center().into();
         Ok(Self { name, nature, shape, pose, centre })
@@ -146,6 +146,12 @@ impl Part {
         let (points, triangles) = surface(&self.shape);
         (points.into_iter().map(|point| (self.pose * point).into()).collect(), triangles)
     }
+}
+
+fn parry_pose(pose: &Pose) -> ParryPose {
+    let turn = pose.rotation.quaternion();
+    let turn = Rotation::from_xyzw(turn.i, turn.j, turn.k, turn.w);
+    ParryPose::from_parts(pose.translation.vector.into(), turn)
 }
 
 fn parry_shape(shape: &Shape) -> Result<(SharedShape, Nature), PartError> {

@@ -6,7 +6,7 @@ use parry3d::{
     bounding_volume::Aabb,
     math::Vector,
     partitioning::{Bvh, BvhBuildStrategy},
-    query::{PointQuery, Ray, RayCast},
+    query::Ray,
 };
 
 /// A surface near a point.

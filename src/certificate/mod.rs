@@ -9,7 +9,7 @@ pub use shape::{DrapeShape, drape_shape};
 
 use crate::{
     body::Bodies,
-    contact::Surface,
+    contact::{Sites, Surface},
     fabric::Fabric,
     forces::{Clamp, Laws},
     lattice::Lattice,
@@ -135,20 +135,17 @@ impl Case<'_> {
         };
         let mut normals = threads::map(at.len(), |node| near(&at[node], reach));
         let reach = self.surface.sample_reach() + 1e-9;
-        let of_cells = threads::map(self.lattice.cells.len(), |cell| {
-            let corners = self.lattice.cells[cell].map(|node| at[node as usize]);
-            let mut found = Vec::new();
-            for (u, v) in samples(|k| (k as f64 + 0.5) / 4.0) {
-                found.append(&mut near(&blend(&corners, u, v), reach));
-            }
-            found
+        let sites = Sites::new(self.lattice);
+        let samples = at.len()..sites.len();
+        let of_samples = threads::map(samples.len(), |k| {
+            near(&sites.site(samples.start + k).at(at), reach)
         });
-        for (cell, found) in self.lattice.cells.iter().zip(of_cells) {
-            for node in cell {
-                let known = &mut normals[*node as usize];
-                for normal in &found {
-                    if !known.iter().any(|other| other.dot(normal) > SAME_NORMAL) {
-                        known.push(*normal);
+        for (sample, found) in samples.zip(of_samples) {
+            for normal in found {
+                for node in sites.site(sample).nodes {
+                    let known = &mut normals[node as usize];
+                    if !known.iter().any(|other| other.dot(&normal) > SAME_NORMAL) {
+                        known.push(normal);
                     }
                 }
             }

@@ -3,7 +3,7 @@
 use crate::math::Vec3;
 
 /// Visits to each cone while a reaction is shared out among several.
-const ROUNDS: usize = 200;
+const ROUNDS: usize = 5000;
 
 /// The net force [gf] that is left of `net` after the best reaction in the cones about `normals`.
 pub(super) fn left_over(net: &Vec3, normals: &[Vec3], friction: f64) -> Vec3 {
@@ -11,10 +11,14 @@ pub(super) fn left_over(net: &Vec3, normals: &[Vec3], friction: f64) -> Vec3 {
     let mut left = *net;
     let rounds = if normals.len() > 1 { ROUNDS } else { 1 };
     for _ in 0..rounds {
+        let before = left;
         for (share, normal) in shares.iter_mut().zip(normals) {
             left -= *share;
             *share = into_cone(&-left, normal, friction);
             left += *share;
+        }
+        if (left - before).norm() <= 1e-9 * net.norm() {
+            break;
         }
     }
     left

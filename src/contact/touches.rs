@@ -49,7 +49,7 @@ impl Surface {
     /// How far from a surface a sample between nodes begins to touch [cm].
     #[must_use]
     pub fn sample_reach(&self) -> f64 {
-        self.offset.min(SAMPLE_OFFSET)
+        SAMPLE_REACH
     }
 }
 
@@ -59,8 +59,9 @@ const SKIN_DEPTH: f64 = 0.004;
 const REACH_BEYOND: f64 = 0.004;
 /// Slip at which friction reaches its limit [cm].
 const GIVE: f64 = 0.004;
-/// Samples between nodes are kept this far outside [cm], so that on a smooth body nodes carry.
-const SAMPLE_OFFSET: f64 = 0.008;
+/// Samples between nodes begin to touch this far outside [cm]: a little inside, so that on a
+/// smooth body nodes carry and only edges and sharp features meet samples.
+const SAMPLE_REACH: f64 = -0.01;
 
 /// All touches, in order of site and part.
 #[derive(Clone, Debug)]

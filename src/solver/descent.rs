@@ -17,7 +17,7 @@ use crate::{
 /// Sweeps before each joint step: they settle what is near, it settles what is far.
 const SWEEPS: usize = 4;
 /// A coarse level is left when steps ask for less than this part of its pitch.
-const COARSE_ENOUGH: f64 = 0.02;
+const COARSE_ENOUGH: f64 = 0.05;
 /// Pressure that the skin answers, in weights of the cloth: what a few decimetres of cloth bring
 /// to a curved body.
 const SKIN_PRESSURE: f64 = 10.0;
@@ -200,19 +200,22 @@ impl Run<'_> {
                 break;
             }
             level.look(0.8 * pitch, (2.0 * made).clamp(0.002, 0.1));
+            let t0 = std::time::Instant::now();
             for _ in 0..SWEEPS {
                 level.sweep();
                 level.touches.look_at_loads(&level.at);
             }
             level.look(0.8 * pitch, (2.0 * made).clamp(0.002, 0.1));
+            let t1 = t0.elapsed().as_secs_f64();
+            let e0 = level.energy(&level.at);
             let Some(step) = joint.step(level) else { break };
             made = step.made;
             remaining = step.asked;
             if std::env::var_os("TRACE").is_some() {
-                eprintln!("L{number} n{} r{round} asked {:.3e} made {:.3e} exact {} shift {:.2e} E {:.8} res {residual:.2e} touches {}", level.at.len(), step.asked, step.made, step.exact, joint.shift, level.energy(&level.at), level.touches.list().len());
+                eprintln!("L{number} n{} r{round} asked {:.3e} made {:.3e} exact {} shift {:.2e} pat {} E {e0:.8} {:.8} res {residual:.2e} touches {}", level.at.len(), step.asked, step.made, step.exact, joint.shift, joint.patience, level.energy(&level.at), level.touches.list().len()); eprintln!("   sweeps {t1:.3} joint {:.3}", t0.elapsed().as_secs_f64()-t1);
             }
             let near = step.exact && step.asked < COARSE_ENOUGH * pitch;
-            if !last && (near || round > 60) {
+            if !last && (step.asked < COARSE_ENOUGH * pitch || round > 30) {
                 break;
             }
             if last && (near || round % 8 == 7) {

@@ -35,9 +35,8 @@ struct Front {
 
 /// A factored system.
 #[derive(Debug)]
-pub(super) struct Factor<'p> {
+pub(super) struct Factor {
     root: Factored,
-    plan: &'p Plan,
 }
 
 #[derive(Debug)]
@@ -106,23 +105,23 @@ fn places(some: &[u32], all: &[u32], rank: &[u32]) -> Vec<u32> {
         .collect()
 }
 
-impl<'p> Factor<'p> {
+impl Factor {
     /// Factors a stiffness; `None` where it is not positive definite.
-    pub(super) fn new(plan: &'p Plan, stiffness: &Stiffness) -> Option<Self> {
+    pub(super) fn new(plan: &Plan, stiffness: &Stiffness) -> Option<Self> {
         let (root, _) = factor(&plan.root, stiffness, &plan.rank)?;
-        Some(Self { root, plan })
+        Some(Self { root })
     }
 
     /// Solves for the moves [cm] that answer the forces [gf]; held nodes stay.
-    pub(super) fn solve(&self, forces: &[Vec3]) -> Vec<Vec3> {
+    pub(super) fn solve(&self, plan: &Plan, forces: &[Vec3]) -> Vec<Vec3> {
         let mut moves = forces.to_vec();
-        for (force, rank) in moves.iter_mut().zip(&self.plan.rank) {
+        for (force, rank) in moves.iter_mut().zip(&plan.rank) {
             if *rank == u32::MAX {
                 *force = Vec3::zeros();
             }
         }
-        forward(&self.plan.root, &self.root, &mut moves);
-        backward(&self.plan.root, &self.root, &mut moves);
+        forward(&plan.root, &self.root, &mut moves);
+        backward(&plan.root, &self.root, &mut moves);
         moves
     }
 }

@@ -8,7 +8,11 @@
 //! 3. The step is cut to a part of the pitch, and each node to the way that bodies leave free.
 //! 4. It is halved until the energy falls.
 
-use super::{factor::{Factor, Plan}, level::Level, stiffness::Stiffness};
+use super::{
+    factor::{Factor, Plan},
+    level::Level,
+    stiffness::Stiffness,
+};
 use crate::math::{Mat3, Vec3};
 
 /// A node moves at most this part of a pitch in a joint step.
@@ -21,6 +25,8 @@ pub(super) struct Joint {
     pub(super) stiffness: Stiffness,
     /// λ: stiffness per weight [1/cm].
     pub(super) shift: f64,
+    /// Steps to go before the exact matrix is tried again.
+    pub(super) patience: usize,
 }
 
 /// What a joint step came to.
@@ -37,7 +43,7 @@ pub(super) struct Step {
 impl Joint {
     pub(super) fn new(level: &Level<'_>) -> Self {
         let (plan, stiffness) = level.plan();
-        Self { plan, stiffness, shift: 4.0 / level.lattice.pitch }
+        Self { plan, stiffness, shift: 4.0 / level.lattice.pitch, patience: 0 }
     }
 
     /// Assembles the matrix at the level's positions.
@@ -54,28 +60,33 @@ impl Joint {
         }
     }
 
-    /// The moves that the shifted system asks for [cm], and whether it is the exact one.
-    fn moves(&mut self, level: &Level<'_>, forces: &[Vec3]) -> Option<(Vec<Vec3>, bool)> {
+    /// Factors the exact matrix at the least shift that allows it, or else the positive one.
+    fn factor(&mut self, level: &Level<'_>) -> Option<(Factor, bool)> {
         let least = LEAST_SHIFT / level.lattice.pitch;
         if self.shift < least {
             self.shift = 0.0;
         }
-        for _ in 0..3 {
-            self.assemble(level, false);
-            if let Some(factor) = Factor::new(&self.plan, &self.stiffness) {
-                return Some((factor.solve(forces), self.shift == 0.0));
+        if self.patience == 0 {
+            for _ in 0..3 {
+                self.assemble(level, false);
+                if let Some(factor) = Factor::new(&self.plan, &self.stiffness) {
+                    return Some((factor, self.shift == 0.0));
+                }
+                self.shift = (self.shift * 5.0).max(4.0 * least);
             }
-            self.shift = (self.shift * 6.0).max(least);
+            self.patience = 3;
         }
+        self.patience -= 1;
+        self.shift = self.shift.max(least);
         self.assemble(level, true);
-        let factor = Factor::new(&self.plan, &self.stiffness)?;
-        Some((factor.solve(forces), false))
+        Some((Factor::new(&self.plan, &self.stiffness)?, false))
     }
 
     /// One step; the level has just looked at its touches.
     pub(super) fn step(&mut self, level: &mut Level<'_>) -> Option<Step> {
         let forces = level.forces(&level.at);
-        let (moves, exact) = self.moves(level, &forces)?;
+        let (factor, exact) = self.factor(level)?;
+        let moves = factor.solve(&self.plan, &forces);
         level.joint_steps += 1;
         let asked = longest(&moves);
         if !asked.is_finite() {
@@ -83,21 +94,18 @@ impl Joint {
             return Some(Step { asked: f64::INFINITY, made: 0.0, exact: false });
         }
         let cap = (LONGEST_MOVE * level.lattice.pitch / asked.max(1e-300)).min(1.0);
-        let made = self.descend(level, &forces, &moves, cap);
+        let made = self.descend(level, &factor, &moves, cap);
         Some(Step { asked, made, exact })
     }
 
     /// Halves the step until the energy falls, and learns λ from how that went.
-    fn descend(&mut self, level: &mut Level<'_>, forces: &[Vec3], moves: &[Vec3], cap: f64) -> f64 {
+    fn descend(&mut self, level: &mut Level<'_>, factor: &Factor, moves: &[Vec3], cap: f64) -> f64 {
         let before = level.energy(&level.at);
         let noise = 1e-12 * before.abs().max(1.0);
-        let slope: f64 = forces.iter().zip(moves).map(|(force, way)| force.dot(way)).sum();
         let mut part = cap;
         for halvings in 0..8 {
-            let to: Vec<Vec3> = crate::threads::map(moves.len(), |node| {
-                level.free_way(node, level.at[node] + moves[node] * part)
-            });
-            if level.energy(&to) <= before - 1e-4 * part * slope + noise {
+            let to = self.corrected(level, factor, moves, part);
+            if level.energy(&to) <= before + noise {
                 let made = to.iter().zip(&level.at).map(|(to, at)| (to - at).norm()).fold(0.0, f64::max);
                 level.at = to;
                 self.learn(halvings, cap);
@@ -109,18 +117,38 @@ impl Joint {
         0.0
     }
 
+    /// A part of the step, and after it what the same factors say of the forces that turning has
+    /// raised: rods that a straight move lengthened come back to their length.
+    fn corrected(&self, level: &Level<'_>, factor: &Factor, moves: &[Vec3], part: f64) -> Vec<Vec3> {
+        let mut to = level.freely(|node| moves[node] * part);
+        let mut energy = level.energy(&to);
+        for _ in 0..CORRECTIONS {
+            let answer = factor.solve(&self.plan, &level.forces(&to));
+            let way = |node: usize| to[node] - level.at[node] + answer[node] - moves[node] * (1.0 - part);
+            let next = level.freely(way);
+            let lower = level.energy(&next);
+            if lower.is_nan() || lower >= energy {
+                break;
+            }
+            (to, energy) = (next, lower);
+        }
+        to
+    }
+
     fn learn(&mut self, halvings: usize, cap: f64) {
         match halvings {
-            0 if cap > 0.3 => self.shift *= 0.2,
+            0 if cap > 0.3 => self.shift *= 0.3,
             0 => self.shift *= 0.7,
             1 => (),
-            _ => self.shift *= 3.0,
+            _ => self.shift = (self.shift * 3.0).min(1e3),
         }
     }
 }
 
+/// Corrections after a joint step: each costs a tenth of the factors.
+const CORRECTIONS: usize = 3;
 /// Below this λ times pitch the shift is dropped.
-const LEAST_SHIFT: f64 = 1e-4;
+const LEAST_SHIFT: f64 = 0.01;
 
 pub(super) fn longest(moves: &[Vec3]) -> f64 {
     moves.iter().map(Vec3::norm).fold(0.0, |longest, way| if way <= longest { longest } else { way })

@@ -11,6 +11,7 @@ use crate::{
     forces::Sheet,
     lattice::Lattice,
     math::Vec3,
+    threads,
 };
 
 /// The state of one level.
@@ -73,6 +74,11 @@ impl<'a> Level<'a> {
     pub(super) fn look(&mut self, way: f64, sample_way: f64) {
         self.touches.refresh(&self.at, self.bodies, way, sample_way);
         self.touches.look_at_loads(&self.at);
+    }
+
+    /// Every node moved by `way` of it, as far as bodies leave free.
+    pub(super) fn freely(&self, way: impl Fn(usize) -> Vec3 + Sync + Send) -> Vec<Vec3> {
+        threads::map(self.at.len(), |node| self.free_way(node, self.at[node] + way(node)))
     }
 
     /// Where a node may go instead of `to`: no farther than the first surface in its way.

@@ -38,46 +38,21 @@ impl Start {
             .collect();
         let nodes = lattice.coordinates.len();
         let mut start = Self { at, held: vec![false; nodes], carry: Vec::new(), clamps: Vec::new() };
+        let mut clamped = vec![false; nodes];
         for (index, hold) in problem.holds.iter().enumerate() {
-            let nodes = match hold.grip {
-                Grip::Edge(edge) => problem.piece.edge_nodes(lattice, edge),
-                Grip::Point(point) => {
-                    let cloth = problem.piece.to_cloth(point);
-                    let (node, distance) = lattice.nearest_node(cloth);
-                    if distance > 1.01 * lattice.pitch {
-                        let (x, y) = (point.x, point.y);
-                        return Err(Unsolvable::HoldOutside { index: index + 1, x, y });
-                    }
-                    vec![node]
-                }
-            };
-            for node in nodes {
+            for node in gripped(problem, lattice, index)? {
+                clamped[node as usize] |= hold.clamp;
                 if !core::mem::replace(&mut start.held[node as usize], true) {
                     start.carry.push((node, hold.carry));
                 }
             }
         }
-        start.clamp(problem, lattice);
+        start.clamp(lattice, &clamped);
         Ok(start)
     }
 
     /// Keeps the slope of every rod that leaves a clamped hold.
-    fn clamp(&mut self, problem: &Problem, lattice: &Lattice) {
-        if !problem.holds.iter().any(|hold| hold.clamp) {
-            return;
-        }
-        let mut clamped = vec![false; self.held.len()];
-        for hold in problem.holds.iter().filter(|hold| hold.clamp) {
-            let nodes = match hold.grip {
-                Grip::Edge(edge) => problem.piece.edge_nodes(lattice, edge),
-                Grip::Point(point) => {
-                    vec![lattice.nearest_node(problem.piece.to_cloth(point)).0]
-                }
-            };
-            for node in nodes {
-                clamped[node as usize] = true;
-            }
-        }
+    fn clamp(&mut self, lattice: &Lattice, clamped: &[bool]) {
         for rod in &lattice.rods {
             let [a, b] = rod.nodes;
             for [held, next] in [[a, b], [b, a]] {
@@ -145,6 +120,17 @@ impl Start {
                 position[axis] += 2.0 * unit * DISORDER * lattice.pitch;
             }
         }
+    }
+}
+
+/// The nodes that a hold takes.
+fn gripped(problem: &Problem, lattice: &Lattice, index: usize) -> Result<Vec<u32>, Unsolvable> {
+    match problem.holds[index].grip {
+        Grip::Edge(edge) => Ok(problem.piece.edge_nodes(lattice, edge)),
+        Grip::Point(point) => match lattice.nearest_node(problem.piece.to_cloth(point)) {
+            Some((node, distance)) if distance <= 1.01 * lattice.pitch => Ok(vec![node]),
+            _ => Err(Unsolvable::HoldOutside { index: index + 1, x: point.x, y: point.y }),
+        },
     }
 }
 
