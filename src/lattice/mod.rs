@@ -9,6 +9,8 @@ mod colours;
 mod connected;
 mod cut;
 mod edge;
+mod faces;
+mod fault;
 mod grain;
 mod grid;
 mod locate;
@@ -18,8 +20,9 @@ mod seat;
 mod weave;
 
 pub use cut::CutError;
+pub use fault::OutlineError;
 pub use locate::{Locator, Place};
-pub use outline::{Edge, Outline, OutlineError};
+pub use outline::{Edge, Outline};
 
 use crate::{fabric::Yarn, math::Vec2};
 
