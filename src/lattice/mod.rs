@@ -72,7 +72,7 @@ pub struct Corner {
     pub nodes: [u32; 3],
     /// Angle between the rods at rest [rad].
     pub rest_angle: f64,
-    /// Area of cloth that it stands for: a quarter of its cell [cm²].
+    /// Area of cloth that it stands for: a quarter of its cell, or all of a triangle [cm²].
     pub area: f64,
 }
 
