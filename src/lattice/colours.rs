@@ -46,6 +46,7 @@ mod tests {
             let corners = lattice.corners.iter().map(|corner| corner.nodes.to_vec());
             let cells = lattice.cells.iter().map(|cell| cell.to_vec());
             for mut group in rods.chain(bends).chain(corners).chain(cells) {
+                group.sort_unstable();
                 group.dedup();
                 let mut colours: Vec<_> = group.iter().map(|n| colour_of[*n as usize]).collect();
                 colours.sort_unstable();

@@ -2,12 +2,12 @@
 
 use crate::{
     lattice::{
-        Lattice, Outline, Piece, connected::scraps_dropped, grid::Grid, seat::seated, weave::weave,
+        Lattice, Outline, Piece, connected::drop_scraps, grid::Grid, seat::seat, weave::weave,
     },
     math::Vec2,
 };
 
-/// The most places that a grid may have; a lattice of as many nodes takes some 3 GB.
+/// The most places that a grid may have; a lattice of as many nodes takes more than a gigabyte.
 const MOST_NODES: f64 = 4e6;
 /// The fewest nodes that make a cloth.
 const FEWEST_NODES: usize = 4;
@@ -93,7 +93,7 @@ impl Piece {
         };
         let nodes = lattice.coordinates.len();
         if nodes < FEWEST_NODES {
-            let fitting = rounded_down(outline.area() / outline.perimeter());
+            let fitting = two_digits(outline.area() / outline.perimeter(), f64::floor);
             return Err(CutError::TooCoarse {
                 pitch,
                 nodes,
@@ -118,8 +118,8 @@ fn cut_along(outline: &Outline, pitch: f64) -> Result<Lattice, CutError> {
     // One place more than the outline can reach, so that it passes between inside and outside.
     let counts = [reach.x, reach.y].map(|reach| 2 * ((reach / pitch) as usize + 1) + 1);
     let mut grid = Grid::regular(counts, Vec2::repeat(pitch));
-    seated(&mut grid, outline);
-    match scraps_dropped(&mut grid) {
+    seat(&mut grid, outline);
+    match drop_scraps(&mut grid) {
         Ok(()) => Ok(weave(&grid)),
         Err(pieces) => Err(CutError::Apart { pitch, pieces }),
     }
@@ -130,10 +130,14 @@ fn check_count(size: Vec2, pitch: f64) -> Result<(), CutError> {
     if nodes <= MOST_NODES {
         return Ok(());
     }
-    // (x/p + 3)(y/p + 3) = most, solved for 1/p.
-    let (product, sum) = (size.x * size.y, size.x + size.y);
+    // (x/p + 3)(y/p + 3) = most, solved for p, in units of the longer side lest squares overflow.
+    let unit = size.max();
+    let (product, sum) = (
+        (size.x / unit) * (size.y / unit),
+        size.x / unit + size.y / unit,
+    );
     let root = (9.0 * sum * sum + 4.0 * product * (MOST_NODES - 9.0)).sqrt();
-    let fitting = rounded_up(2.0 * product / (root - 3.0 * sum));
+    let fitting = two_digits(unit * 2.0 * product / (root - 3.0 * sum), f64::ceil);
     Err(CutError::TooFine {
         pitch,
         nodes,
@@ -141,16 +145,14 @@ fn check_count(size: Vec2, pitch: f64) -> Result<(), CutError> {
     })
 }
 
-/// The next number with two digits, for a message.
-fn rounded_up(value: f64) -> f64 {
-    let unit = libm::exp10(libm::log10(value).floor() - 1.0);
-    (value / unit).ceil() * unit
-}
-
-/// The number with two digits before, for a message.
-fn rounded_down(value: f64) -> f64 {
-    let unit = libm::exp10(libm::log10(value).floor() - 1.0);
-    (value / unit).floor() * unit
+/// A positive length rounded to two digits, for a message.
+fn two_digits(length: f64, round: fn(f64) -> f64) -> f64 {
+    let scale = libm::exp10(1.0 - libm::log10(length).floor());
+    if scale.is_normal() {
+        round(length * scale) / scale
+    } else {
+        length
+    }
 }
 
 #[cfg(test)]
@@ -255,6 +257,187 @@ mod tests {
     fn a_pitch_longer_than_the_cloth_leaves_one_cell() {
         let lattice = cut(rectangle(3.0, 2.0), 0.0, 50.0);
         assert_eq!((lattice.cells.len(), lattice.pitch), (1, 3.0));
+    }
+
+    fn polygon(points: &[[f64; 2]], holes: &[&[[f64; 2]]], turn: impl Fn(Vec2) -> Vec2) -> Outline {
+        let ring =
+            |points: &[[f64; 2]]| points.iter().map(|p| turn(Vec2::new(p[0], p[1]))).collect();
+        Outline::polygon(ring(points), holes.iter().map(|hole| ring(hole)).collect()).unwrap()
+    }
+
+    /// An L with a slanted hole, every edge off the grid.
+    fn l_shape(turn: impl Fn(Vec2) -> Vec2) -> Outline {
+        let outer = [
+            [0.0, 0.0],
+            [20.0, 0.0],
+            [20.0, 9.7],
+            [9.3, 9.7],
+            [9.3, 21.0],
+            [0.0, 21.0],
+        ];
+        let hole = [[2.0, 2.0], [5.0, 2.2], [4.8, 6.0], [2.0, 5.0]];
+        polygon(&outer, &[&hole], turn)
+    }
+
+    /// Ends of the sides that only one mesh has.
+    fn boundary(lattice: &Lattice) -> Vec<usize> {
+        let mut sides = std::collections::BTreeMap::new();
+        for cell in &lattice.cells {
+            for k in 0..4 {
+                let (a, b) = (cell[k], cell[(k + 1) % 4]);
+                if a != b {
+                    *sides.entry([a.min(b), a.max(b)]).or_insert(0) += 1;
+                }
+            }
+        }
+        let single = sides.into_iter().filter(|(_, count)| *count == 1);
+        single
+            .flat_map(|(side, _)| side.map(|node| node as usize))
+            .collect()
+    }
+
+    /// The area is the outline's to within a part of it, the edge is on the outline, and no mesh is
+    /// degenerate.
+    #[track_caller]
+    fn check(outline: &Outline, degrees: f64, pitch: f64, part: f64) {
+        let (grain, outline) = (degrees.to_radians(), outline.clone());
+        let piece = Piece {
+            outline,
+            grain,
+            pitch,
+        };
+        let lattice = piece.cut(pitch).unwrap();
+        let area = area_of_every_law(&lattice) / piece.outline.area();
+        assert!((area - 1.0).abs() < part, "{area}");
+        let on_edge = boundary(&lattice);
+        assert!(!on_edge.is_empty());
+        for node in on_edge {
+            let at = piece.to_outline(lattice.coordinates[node]);
+            assert!((piece.outline.nearest(at) - at).norm() < 1e-9);
+        }
+        for rod in &lattice.rods {
+            assert!((0.3..2.0).contains(&(rod.rest / pitch)) && rod.width > 0.0);
+        }
+        for corner in &lattice.corners {
+            let angle = corner.rest_angle.to_degrees();
+            assert!((20.0..170.0).contains(&angle), "{angle}");
+        }
+    }
+
+    #[test]
+    fn a_disc_is_round_to_a_thousandth_and_its_edge_is_seated() {
+        check(&Outline::disc(15.0).unwrap(), 0.0, 0.5, 1e-3);
+        check(&Outline::disc(3.0).unwrap(), 0.0, 0.5, 1e-2);
+    }
+
+    #[test]
+    fn straight_edges_are_kept_at_any_grain() {
+        for degrees in [5.0, 10.0, 20.0, 30.0, 44.0, 45.0, 80.0] {
+            check(&rectangle(30.0, 10.0), degrees, 0.5, 1e-9);
+        }
+    }
+
+    #[test]
+    fn corners_and_holes_are_kept_at_any_grain() {
+        for degrees in [0.0, 15.0, 30.0, 45.0, 77.0] {
+            check(&l_shape(|point| point), degrees, 0.5, 1e-3);
+        }
+    }
+
+    /// Coordinates and areas in an order of their own.
+    fn sorted(lattice: &Lattice, turn: impl Fn(Vec2) -> Vec2) -> Vec<[f64; 3]> {
+        let nodes = lattice.coordinates.iter().zip(&lattice.area);
+        let mut sorted: Vec<[f64; 3]> = nodes
+            .map(|(at, area)| [turn(*at).x, turn(*at).y, *area].map(|v| (v * 1e9).round()))
+            .collect();
+        sorted.sort_by(|a, b| a.partial_cmp(b).unwrap());
+        sorted
+    }
+
+    #[test]
+    fn a_disc_has_all_the_symmetries_of_the_grid() {
+        let disc = cut(Outline::disc(7.3).unwrap(), 0.0, 0.5);
+        let plain = sorted(&disc, |p| p);
+        assert_eq!(plain, sorted(&disc, |p| Vec2::new(p.y, p.x)));
+        assert_eq!(plain, sorted(&disc, |p| Vec2::new(0.0 - p.x, p.y)));
+        assert_eq!(disc.coordinates[disc.coordinates.len() / 2], Vec2::zeros());
+    }
+
+    #[test]
+    fn exchanging_warp_and_weft_mirrors_the_lattice() {
+        let mirror = |p: Vec2| Vec2::new(p.y, p.x);
+        let (plain, other) = (
+            cut(l_shape(|p| p), 0.0, 0.7),
+            cut(l_shape(mirror), 0.0, 0.7),
+        );
+        assert_eq!(sorted(&plain, mirror), sorted(&other, |p| p));
+        let lengths = |lattice: &Lattice, yarn: Yarn| {
+            let rods = lattice.rods.iter().filter(|rod| rod.yarn == yarn);
+            let mut rods: Vec<_> = rods.map(|rod| (rod.rest * 1e9).round() as i64).collect();
+            rods.sort_unstable();
+            rods
+        };
+        assert_eq!(lengths(&plain, Yarn::Warp), lengths(&other, Yarn::Weft));
+    }
+
+    #[test]
+    fn a_bias_edge_has_no_rods_along_it() {
+        let (outline, grain, pitch) = (rectangle(30.0, 10.0), 45.0_f64.to_radians(), 0.5);
+        let piece = Piece {
+            outline,
+            grain,
+            pitch,
+        };
+        let lattice = piece.cut(pitch).unwrap();
+        let lower = piece.edge_nodes(&lattice, crate::lattice::Edge::YMin);
+        assert!(lower.len() > 40);
+        let along = lattice
+            .rods
+            .iter()
+            .filter(|rod| rod.nodes.iter().all(|n| lower.contains(n)));
+        assert_eq!(along.count(), 0);
+    }
+
+    #[test]
+    fn an_outline_too_narrow_or_too_small_is_refused() {
+        let refusal = |outline: Outline, pitch: f64| {
+            let piece = Piece {
+                outline,
+                grain: 0.0,
+                pitch,
+            };
+            piece.cut(pitch).unwrap_err()
+        };
+        let dumbbell = [
+            [0.0, 0.0],
+            [10.0, 0.0],
+            [10.0, 4.8],
+            [20.0, 4.8],
+            [20.0, 0.0],
+            [30.0, 0.0],
+            [30.0, 10.0],
+            [20.0, 10.0],
+            [20.0, 5.1],
+            [10.0, 5.1],
+            [10.0, 10.0],
+            [0.0, 10.0],
+        ];
+        let apart = refusal(polygon(&dumbbell, &[], |p| p), 1.0);
+        assert_eq!(
+            apart,
+            CutError::Apart {
+                pitch: 1.0,
+                pieces: 2
+            }
+        );
+        let small = Outline::disc(0.4).unwrap();
+        let CutError::TooCoarse {
+            nodes: 0, fitting, ..
+        } = refusal(small.clone(), 1.0)
+        else {
+            panic!("a disc narrower than the spacing has no nodes");
+        };
+        assert!(cut(small, 0.0, fitting).coordinates.len() >= 4);
     }
 
     #[test]

@@ -29,15 +29,16 @@ pub(super) enum Mesh {
 }
 
 impl Mesh {
-    /// The corners that are present, counter-clockwise.
+    /// The corners that are present, counter-clockwise; of a triangle, the one between its rods is
+    /// in the middle.
     pub(super) fn corners(self) -> &'static [usize] {
         match self {
-            Self::Absent | Self::Without(4..) => &[],
+            Self::Absent => &[],
             Self::Whole => &[0, 1, 2, 3],
             Self::Without(0) => &[1, 2, 3],
             Self::Without(1) => &[2, 3, 0],
             Self::Without(2) => &[3, 0, 1],
-            Self::Without(3) => &[0, 1, 2],
+            Self::Without(3..) => &[0, 1, 2],
         }
     }
 }
@@ -74,6 +75,18 @@ impl Grid {
         self.place(node) + self.shift[node]
     }
 
+    /// The four nodes whose places are around a point [cm].
+    pub(super) fn around(&self, point: Vec2) -> [usize; 4] {
+        let first = [0, 1].map(|axis| {
+            let middle = 0.5 * (self.counts[axis] as f64 - 1.0);
+            let index = (point[axis] / self.step[axis] + middle) as usize;
+            index.min(self.counts[axis].saturating_sub(2))
+        });
+        let first = first[1] * self.counts[0] + first[0];
+        let above = first + self.counts[0];
+        [first, first + 1, above, above + 1]
+    }
+
     /// From one node to another [cm].
     pub(super) fn vector(&self, from: usize, to: usize) -> Vec2 {
         let ([a, b], [c, d]) = (self.indices(from), self.indices(to));
@@ -87,6 +100,15 @@ impl Grid {
         let first = square / across * self.counts[0] + square % across;
         let above = first + self.counts[0];
         [first, first + 1, above + 1, above]
+    }
+
+    /// The squares that have a node as a corner.
+    pub(super) fn squares_around(&self, node: usize) -> impl Iterator<Item = usize> {
+        let [across, along] = self.counts.map(|count| count - 1);
+        let [i, j] = self.indices(node);
+        let rows = j.saturating_sub(1)..(j + 1).min(along);
+        let columns = i.saturating_sub(1)..(i + 1).min(across);
+        rows.flat_map(move |row| columns.clone().map(move |column| row * across + column))
     }
 
     /// The nodes of a mesh, counter-clockwise.

@@ -284,6 +284,7 @@ mod tests {
         let locator = disc.locator();
         for cell in &disc.cells {
             let mut nodes = cell.to_vec();
+            nodes.sort_unstable();
             nodes.dedup();
             let sum: Vec2 = nodes.iter().map(|n| disc.coordinates[*n as usize]).sum();
             let place = locator.locate(sum / nodes.len() as f64);

@@ -9,6 +9,8 @@ mod colours;
 mod connected;
 mod cut;
 mod edge;
+mod faces;
+mod fault;
 mod grain;
 mod grid;
 mod locate;
@@ -18,8 +20,9 @@ mod seat;
 mod weave;
 
 pub use cut::CutError;
+pub use fault::OutlineError;
 pub use locate::{Locator, Place};
-pub use outline::{Edge, Outline, OutlineError};
+pub use outline::{Edge, Outline};
 
 use crate::{fabric::Yarn, math::Vec2};
 
@@ -69,7 +72,7 @@ pub struct Corner {
     pub nodes: [u32; 3],
     /// Angle between the rods at rest [rad].
     pub rest_angle: f64,
-    /// Area of cloth that it stands for: a quarter of its cell [cm²].
+    /// Area of cloth that it stands for: a quarter of its cell, or all of a triangle [cm²].
     pub area: f64,
 }
 
