@@ -4,6 +4,6 @@ mod mesh;
 mod part;
 mod query;
 
-pub use mesh::{Format, Inspection, Mesh, MeshError, Unit, Up};
+pub use mesh::{Format, Inspection, Mesh, MeshError, Place, Unit, Up};
 pub use part::{Nature, Part, PartError, Shape};
 pub use query::{Bodies, Near};
