@@ -1,0 +1,93 @@
+//! From what rays brought home to pixels.
+
+use super::{Met, Sample, camera::Camera, lamp::Lamp, rows};
+use crate::{
+    math::Vec3,
+    output::{
+        colour::{Rgb, from_srgb, to_srgb},
+        png::Image,
+    },
+};
+
+/// Lights every sample, and takes the mean of the four of each pixel.
+pub(super) fn develop(samples: &[Sample], camera: &Camera) -> Image {
+    let [width, height] = camera.size.map(|pixels| pixels as usize);
+    let studio = Studio::new(camera);
+    let pixels = rows(height, |y| {
+        let pixel = |x: usize| {
+            let light = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(right, down)| {
+                let sample = samples.get((2 * y + down) * 2 * width + 2 * x + right);
+                let [across, along] = [x as f64 / width as f64, y as f64 / height as f64];
+                studio.light(&sample.copied().unwrap_or_default(), across, along)
+            });
+            to_srgb(light.iter().sum::<Rgb>() / 4.0)
+        };
+        (0..width).map(pixel).collect()
+    });
+    Image { width: camera.size[0], height: camera.size[1], pixels }
+}
+
+/// Colours of the light, and where the lamp is.
+struct Studio {
+    lamp: Vec3,
+    fill: Vec3,
+    lamp_light: Rgb,
+    fill_light: Rgb,
+    sky_light: Rgb,
+    floor_light: Rgb,
+    backdrop: [Rgb; 3],
+}
+
+impl Studio {
+    fn new(camera: &Camera) -> Self {
+        Self {
+            lamp: Lamp::beside(camera).towards,
+            fill: (camera.right * 0.8 + camera.back * 0.6).normalize(),
+            lamp_light: Rgb::new(0.88, 0.84, 0.78),
+            fill_light: Rgb::new(0.08, 0.085, 0.10),
+            sky_light: Rgb::new(0.40, 0.43, 0.48),
+            floor_light: Rgb::new(0.22, 0.20, 0.18),
+            backdrop: [[206, 209, 213], [234, 233, 230], [214, 210, 204]].map(from_srgb),
+        }
+    }
+
+    fn light(&self, sample: &Sample, across: f64, along: f64) -> Rgb {
+        let (lamp, sky) = (f64::from(sample.lamp), f64::from(sample.sky));
+        let colour = Rgb::from(sample.colour.map(f64::from));
+        match sample.on {
+            Met::Nothing => self.backdrop(across, along),
+            Met::Floor => {
+                let lit = 0.56 * lamp + 0.44 * sky;
+                let shade = Rgb::new(lit, lit, 0.03 + 0.97 * lit);
+                let shade = Rgb::repeat(1.0).lerp(&shade, colour.x);
+                self.backdrop(across, along).component_mul(&shade)
+            }
+            Met::Body | Met::Cloth => {
+                let normal = Vec3::from(sample.normal.map(f64::from));
+                colour.component_mul(&self.falling_on(normal, lamp, sky))
+            }
+        }
+    }
+
+    /// Light on a matt surface.
+    fn falling_on(&self, normal: Vec3, lamp: f64, sky: f64) -> Rgb {
+        let height = 0.5 + 0.5 * normal.z;
+        let around = self.floor_light.lerp(&self.sky_light, height);
+        self.lamp_light * (lamp * normal.dot(&self.lamp).max(0.0))
+            + around * sky
+            + self.fill_light * ((0.4 + 0.6 * normal.dot(&self.fill)).max(0.0) * sky)
+    }
+
+    /// A paper roll lit from the front: brightest behind the subject, darker to the corners.
+    fn backdrop(&self, across: f64, along: f64) -> Rgb {
+        let [top, middle, foot] = &self.backdrop;
+        let roll = |from: &Rgb, to: &Rgb, t: f64| from.lerp(to, t * t * (3.0 - 2.0 * t));
+        let paper = if along < 0.55 {
+            roll(top, middle, along / 0.55)
+        } else {
+            roll(middle, foot, (along - 0.55) / 0.45)
+        };
+        let (x, y) = (across - 0.5, along - 0.5);
+        paper * (1.0 - 0.22 * (x * x + 0.6 * y * y))
+    }
+}
