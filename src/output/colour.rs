@@ -52,7 +52,11 @@ fn oklch(lightness: f64, chroma: f64, hue: f64) -> Rgb {
 pub(super) fn from_srgb(screen: [u8; 3]) -> Rgb {
     Rgb::from(screen.map(f64::from)).map(|byte| {
         let value = byte / 255.0;
-        if value <= 0.040_45 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) }
+        if value <= 0.040_45 {
+            value / 12.92
+        } else {
+            libm::pow((value + 0.055) / 1.055, 2.4)
+        }
     })
 }
 
@@ -88,15 +92,22 @@ mod tests {
 
     #[track_caller]
     fn check_even(colours: &[Rgb]) {
-        let steps: Vec<Vec3> = colours.windows(2).map(|w| oklab(w[1]) - oklab(w[0])).collect();
+        let steps: Vec<Vec3> = colours
+            .windows(2)
+            .map(|w| oklab(w[1]) - oklab(w[0]))
+            .collect();
         let seen: Vec<f64> = steps.iter().map(Vec3::norm).collect();
-        let (least, most) =
-            seen.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &x| (a.min(x), b.max(x)));
+        let (least, most) = seen
+            .iter()
+            .fold((f64::INFINITY, 0.0_f64), |(a, b), &x| (a.min(x), b.max(x)));
         assert!(most < 1.6 * least, "steps from {least} to {most}");
         let lightness = steps[0].x;
         assert!(steps.iter().all(|step| (step.x - lightness).abs() < 1e-6));
         let shown = |c: &Rgb| c.iter().all(|x| (-0.003..=1.0).contains(x));
-        assert!(colours.iter().all(shown), "outside what screens show: {colours:?}");
+        assert!(
+            colours.iter().all(shown),
+            "outside what screens show: {colours:?}"
+        );
     }
 
     #[test]

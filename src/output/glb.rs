@@ -43,7 +43,11 @@ fn materials() -> Value {
 fn cloth_attributes(file: &mut Glb, cloth: &ClothMesh<'_>, maps: &[HeatMap]) -> Map<String, Value> {
     let nodes = cloth.positions.len();
     let mut attributes = Map::new();
-    let repeats = cloth.lattice.coordinates.iter().map(|c| (c / weave::REPEAT).map(|x| x as f32).into());
+    let repeats = cloth
+        .lattice
+        .coordinates
+        .iter()
+        .map(|c| (c / weave::REPEAT).map(|x| x as f32).into());
     let repeats = repeats.chain(std::iter::repeat([0.0; 2])).take(nodes);
     attributes.insert("TEXCOORD_0".into(), file.floats::<2>(repeats, false).into());
     for heat in maps {
@@ -54,7 +58,12 @@ fn cloth_attributes(file: &mut Glb, cloth: &ClothMesh<'_>, maps: &[HeatMap]) -> 
     }
     if let Some(heat) = maps.first() {
         let scale = heat.scale();
-        let values = heat.values.iter().copied().chain(std::iter::repeat(f64::NAN)).take(nodes);
+        let values = heat
+            .values
+            .iter()
+            .copied()
+            .chain(std::iter::repeat(f64::NAN))
+            .take(nodes);
         let colours = values.map(|x| scale.colour(x).map(|c| c.clamp(0.0, 1.0) as f32).into());
         attributes.insert("COLOR_0".into(), file.floats::<3>(colours, false).into());
     }
@@ -72,19 +81,33 @@ struct Glb {
 
 impl Glb {
     /// Adds a mesh; one without faces is left out, since glTF has no empty mesh.
-    fn mesh(&mut self, name: &str, shell: &Shell, attributes: &mut Map<String, Value>, material: usize) {
+    fn mesh(
+        &mut self,
+        name: &str,
+        shell: &Shell,
+        attributes: &mut Map<String, Value>,
+        material: usize,
+    ) {
         if shell.triangles.is_empty() {
             return;
         }
         let rows = |vectors: &[Vec3], scale: f64| {
-            vectors.iter().map(|v| y_up(v, scale)).collect::<Vec<_>>().into_iter()
+            vectors
+                .iter()
+                .map(|v| y_up(v, scale))
+                .collect::<Vec<_>>()
+                .into_iter()
         };
         let position = self.floats::<3>(rows(&shell.vertices, 0.01), true);
         let normal = self.floats::<3>(rows(&shell.normals, 1.0), false);
         attributes.insert("POSITION".into(), position.into());
         attributes.insert("NORMAL".into(), normal.into());
-        let bytes: Vec<u8> =
-            shell.triangles.as_flattened().iter().flat_map(|index| index.to_le_bytes()).collect();
+        let bytes: Vec<u8> = shell
+            .triangles
+            .as_flattened()
+            .iter()
+            .flat_map(|index| index.to_le_bytes())
+            .collect();
         let view = self.view(&bytes, Some(ELEMENT_ARRAY));
         let indices = self.accessor(json!({
             "bufferView": view, "componentType": UNSIGNED_INT, "type": "SCALAR",
@@ -95,7 +118,11 @@ impl Glb {
     }
 
     /// Adds a vertex attribute of N floats; its index among the accessors.
-    fn floats<const N: usize>(&mut self, rows: impl Iterator<Item = [f32; N]>, bounds: bool) -> usize {
+    fn floats<const N: usize>(
+        &mut self,
+        rows: impl Iterator<Item = [f32; N]>,
+        bounds: bool,
+    ) -> usize {
         let (mut least, mut most) = ([f32::INFINITY; N], [f32::NEG_INFINITY; N]);
         let (mut bytes, mut count) = (Vec::new(), 0_usize);
         for row in rows {
@@ -105,7 +132,10 @@ impl Glb {
             count += 1;
         }
         let view = self.view(&bytes, Some(ARRAY));
-        let kind = ["", "SCALAR", "VEC2", "VEC3"].get(N).copied().unwrap_or_default();
+        let kind = ["", "SCALAR", "VEC2", "VEC3"]
+            .get(N)
+            .copied()
+            .unwrap_or_default();
         let mut accessor =
             json!({ "bufferView": view, "componentType": FLOAT, "type": kind, "count": count });
         if bounds {
@@ -182,7 +212,13 @@ fn container(mut json: Vec<u8>, binary: &[u8]) -> Vec<u8> {
         chunks.extend(chunk(b"BIN\0", binary));
     }
     let length = 12 + chunks.len() as u32;
-    [&b"glTF"[..], &2_u32.to_le_bytes(), &length.to_le_bytes(), &chunks].concat()
+    [
+        &b"glTF"[..],
+        &2_u32.to_le_bytes(),
+        &length.to_le_bytes(),
+        &chunks,
+    ]
+    .concat()
 }
 
 /// Fills up to a multiple of 4.
@@ -203,20 +239,39 @@ mod tests {
 
     fn bodies() -> [BodyMesh; 3] {
         let ball = sample::ball(Vec3::new(0.0, 0.0, -6.0), 5.0, 12);
-        let empty = BodyMesh { name: "nothing".into(), ..BodyMesh::default() };
-        [ball, empty, sample::cuboid(Vec3::zeros(), Vec3::new(3.0, 2.0, 1.0))]
+        let empty = BodyMesh {
+            name: "nothing".into(),
+            ..BodyMesh::default()
+        };
+        [
+            ball,
+            empty,
+            sample::cuboid(Vec3::zeros(), Vec3::new(3.0, 2.0, 1.0)),
+        ]
     }
 
     #[test]
     fn an_independent_reader_accepts_cloth_and_bodies() {
         let (lattice, positions) = sample::wave(7, 5, 0.7);
-        let cloth = ClothMesh { lattice: &lattice, positions: &positions };
+        let cloth = ClothMesh {
+            lattice: &lattice,
+            positions: &positions,
+        };
         let file = Gltf::from_slice(&glb(&cloth, &bodies(), &[])).unwrap();
-        let names: Vec<_> = file.nodes().map(|node| node.mesh().unwrap().index()).collect();
+        let names: Vec<_> = file
+            .nodes()
+            .map(|node| node.mesh().unwrap().index())
+            .collect();
         assert_eq!(names, [0, 1, 2]);
         let cloth = file.meshes().next().unwrap().primitives().next().unwrap();
         assert!(cloth.material().double_sided());
-        assert!(cloth.material().pbr_metallic_roughness().base_color_texture().is_some());
+        assert!(
+            cloth
+                .material()
+                .pbr_metallic_roughness()
+                .base_color_texture()
+                .is_some()
+        );
         let reader = cloth.reader(|_| file.blob.as_deref());
         let read: Vec<[f32; 3]> = reader.read_positions().unwrap().collect();
         let expected: Vec<[f32; 3]> = positions
@@ -226,13 +281,23 @@ mod tests {
         assert_eq!(read, expected);
         let normals: Vec<[f32; 3]> = reader.read_normals().unwrap().collect();
         assert!(normals.iter().all(|n| n[1] > 0.5), "{normals:?}");
-        assert_eq!(reader.read_indices().unwrap().into_u32().count(), 6 * lattice.cells.len());
+        assert_eq!(
+            reader.read_indices().unwrap().into_u32().count(),
+            6 * lattice.cells.len()
+        );
     }
 
     #[test]
     fn bounds_lengths_and_indices_hold_for_every_mesh() {
         let (lattice, positions) = sample::wave(7, 5, 0.7);
-        let bytes = glb(&ClothMesh { lattice: &lattice, positions: &positions }, &bodies(), &[]);
+        let bytes = glb(
+            &ClothMesh {
+                lattice: &lattice,
+                positions: &positions,
+            },
+            &bodies(),
+            &[],
+        );
         assert_eq!(bytes.len() % 4, 0);
         let file = Gltf::from_slice(&bytes).unwrap();
         for mesh in file.meshes() {
@@ -242,7 +307,10 @@ mod tests {
             let bounds = primitive.bounding_box();
             for k in 0..3 {
                 let least = positions.iter().map(|p| p[k]).fold(f32::INFINITY, f32::min);
-                let most = positions.iter().map(|p| p[k]).fold(f32::NEG_INFINITY, f32::max);
+                let most = positions
+                    .iter()
+                    .map(|p| p[k])
+                    .fold(f32::NEG_INFINITY, f32::max);
                 assert_eq!((least, most), (bounds.min[k], bounds.max[k]));
             }
             let normals: Vec<[f32; 3]> = reader.read_normals().unwrap().collect();
@@ -255,7 +323,14 @@ mod tests {
     #[test]
     fn faces_keep_their_outside() {
         let (lattice, positions) = sample::wave(3, 3, 0.7);
-        let bytes = glb(&ClothMesh { lattice: &lattice, positions: &positions }, &bodies(), &[]);
+        let bytes = glb(
+            &ClothMesh {
+                lattice: &lattice,
+                positions: &positions,
+            },
+            &bodies(),
+            &[],
+        );
         let file = Gltf::from_slice(&bytes).unwrap();
         for mesh in file.meshes() {
             let primitive = mesh.primitives().next().unwrap();
@@ -269,7 +344,11 @@ mod tests {
             for corners in indices.as_chunks::<3>().0 {
                 let [a, b, c] = corners.map(|i| positions[i as usize]);
                 let outward = (b - a).cross(&(c - a));
-                assert!(corners.iter().all(|&i| outward.dot(&normals[i as usize]) > 0.0));
+                assert!(
+                    corners
+                        .iter()
+                        .all(|&i| outward.dot(&normals[i as usize]) > 0.0)
+                );
             }
         }
     }
@@ -277,7 +356,10 @@ mod tests {
     #[test]
     fn maps_become_attributes_and_colours() {
         let (lattice, positions) = sample::wave(7, 5, 0.7);
-        let cloth = ClothMesh { lattice: &lattice, positions: &positions };
+        let cloth = ClothMesh {
+            lattice: &lattice,
+            positions: &positions,
+        };
         let gap = vec![0.25; 34];
         let maps = [output::Map::Gap, output::Map::Shear]
             .map(|map| HeatMap::of(map, &cloth, None, Some(&gap)).unwrap());
@@ -287,11 +369,19 @@ mod tests {
         assert_eq!(accessor.count(), 35);
         let view = accessor.view().unwrap();
         let bytes = &file.blob.as_deref().unwrap()[view.offset()..view.offset() + view.length()];
-        let values: Vec<f32> =
-            bytes.as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect();
+        let values: Vec<f32> = bytes
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .map(|b| f32::from_le_bytes(*b))
+            .collect();
         assert_eq!(values[..34], [0.25; 34]);
         assert_eq!(values[34], 0.0);
-        assert!(primitive.get(&Semantic::Extras("SHEAR_DEG".into())).is_some());
+        assert!(
+            primitive
+                .get(&Semantic::Extras("SHEAR_DEG".into()))
+                .is_some()
+        );
         assert!(primitive.get(&Semantic::Colors(0)).is_some());
     }
 
@@ -299,7 +389,10 @@ mod tests {
     fn a_file_without_faces_is_still_a_file() {
         let (lattice, mut positions) = sample::wave(2, 2, 0.7);
         positions[0].x = f64::NAN;
-        let cloth = ClothMesh { lattice: &lattice, positions: &positions };
+        let cloth = ClothMesh {
+            lattice: &lattice,
+            positions: &positions,
+        };
         let file = Gltf::from_slice(&glb(&cloth, &[], &[])).unwrap();
         assert_eq!(file.meshes().count(), 0);
     }

@@ -14,11 +14,11 @@ mod picture;
 mod ply;
 mod png;
 mod report;
+#[cfg(test)]
+mod sample;
 mod shell;
 mod weave;
 mod write;
-#[cfg(test)]
-mod sample;
 
 pub use glb::glb;
 pub use heat::{HeatMap, Map, UnknownMap};

@@ -18,7 +18,10 @@ pub fn obj(title: &str, cloth: &ClothMesh<'_>) -> String {
 
 fn write_obj(text: &mut String, title: &str, cloth: &ClothMesh<'_>) -> std::fmt::Result {
     writeln!(text, "# {title}")?;
-    writeln!(text, "# soen: cm, z up; vt are cloth coordinates (warp, weft) [cm]")?;
+    writeln!(
+        text,
+        "# soen: cm, z up; vt are cloth coordinates (warp, weft) [cm]"
+    )?;
     writeln!(text, "o cloth")?;
     for p in cloth.positions {
         writeln!(text, "v {} {} {}", p.x, p.y, p.z)?;
@@ -42,7 +45,11 @@ mod tests {
     fn rows(text: &str, key: &str) -> Vec<Vec<f64>> {
         text.lines()
             .filter_map(|line| line.strip_prefix(key)?.strip_prefix(' '))
-            .map(|line| line.split(' ').map(|number| number.parse().unwrap()).collect())
+            .map(|line| {
+                line.split(' ')
+                    .map(|number| number.parse().unwrap())
+                    .collect()
+            })
             .collect()
     }
 
@@ -52,8 +59,18 @@ mod tests {
         positions[3].x = -0.0;
         positions[4].y = f64::MIN_POSITIVE;
         positions[5].z = 1.0 / 3.0e17;
-        let text = obj("wave", &ClothMesh { lattice: &lattice, positions: &positions });
-        let bits: Vec<u64> = rows(&text, "v").concat().iter().map(|x| x.to_bits()).collect();
+        let text = obj(
+            "wave",
+            &ClothMesh {
+                lattice: &lattice,
+                positions: &positions,
+            },
+        );
+        let bits: Vec<u64> = rows(&text, "v")
+            .concat()
+            .iter()
+            .map(|x| x.to_bits())
+            .collect();
         let expected: Vec<u64> = positions.iter().flatten().map(|x| x.to_bits()).collect();
         assert_eq!(bits, expected);
         let coordinates: Vec<f64> = lattice.coordinates.iter().flatten().copied().collect();
@@ -63,8 +80,17 @@ mod tests {
     #[test]
     fn an_independent_reader_finds_every_cell() {
         let (lattice, positions) = sample::wave(7, 5, 0.7);
-        let text = obj("two\nlines", &ClothMesh { lattice: &lattice, positions: &positions });
-        let options = tobj::LoadOptions { single_index: true, ..Default::default() };
+        let text = obj(
+            "two\nlines",
+            &ClothMesh {
+                lattice: &lattice,
+                positions: &positions,
+            },
+        );
+        let options = tobj::LoadOptions {
+            single_index: true,
+            ..Default::default()
+        };
         let (models, _) =
             tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| Ok(Default::default())).unwrap();
         let mesh = &models[0].mesh;

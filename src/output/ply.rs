@@ -31,8 +31,13 @@ fn header(cloth: &ClothMesh<'_>, maps: &[HeatMap]) -> String {
         "comment soen: cloth, cm, z up".to_owned(),
         format!("element vertex {nodes}"),
     ];
-    lines.extend(["x", "y", "z", "warp_cm", "weft_cm"].map(|name| format!("property double {name}")));
-    lines.extend(maps.iter().map(|heat| format!("property float {}", heat.map.column())));
+    lines.extend(
+        ["x", "y", "z", "warp_cm", "weft_cm"].map(|name| format!("property double {name}")),
+    );
+    lines.extend(
+        maps.iter()
+            .map(|heat| format!("property float {}", heat.map.column())),
+    );
     lines.push(format!("element face {}", cloth.lattice.cells.len()));
     lines.push("property list uchar uint vertex_indices".to_owned());
     lines.push("end_header\n".to_owned());
@@ -51,25 +56,42 @@ mod tests {
     #[test]
     fn an_independent_reader_finds_positions_values_and_cells() {
         let (lattice, positions) = sample::wave(7, 5, 0.7);
-        let cloth = ClothMesh { lattice: &lattice, positions: &positions };
+        let cloth = ClothMesh {
+            lattice: &lattice,
+            positions: &positions,
+        };
         let gap = vec![0.25; 34];
-        let maps = [Map::StrainWarp, Map::Gap].map(|m| HeatMap::of(m, &cloth, None, Some(&gap)).unwrap());
+        let maps =
+            [Map::StrainWarp, Map::Gap].map(|m| HeatMap::of(m, &cloth, None, Some(&gap)).unwrap());
         let bytes = ply(&cloth, &maps);
-        let read = Parser::<DefaultElement>::new().read_ply(&mut &bytes[..]).unwrap();
+        let read = Parser::<DefaultElement>::new()
+            .read_ply(&mut &bytes[..])
+            .unwrap();
         let vertices = &read.payload["vertex"];
         assert_eq!(vertices.len(), positions.len());
         for (i, (vertex, p)) in vertices.iter().zip(&positions).enumerate() {
-            assert_eq!(["x", "y", "z"].map(|k| vertex[k].clone()), [p.x, p.y, p.z].map(Property::Double));
-            assert_eq!(vertex["weft_cm"], Property::Double(lattice.coordinates[i].y));
+            assert_eq!(
+                ["x", "y", "z"].map(|k| vertex[k].clone()),
+                [p.x, p.y, p.z].map(Property::Double)
+            );
+            assert_eq!(
+                vertex["weft_cm"],
+                Property::Double(lattice.coordinates[i].y)
+            );
             let strain = (0.01 * maps[0].values[i]) as f32;
             assert_eq!(vertex["strain_warp"], Property::Float(strain));
         }
         assert_eq!(vertices[33]["gap_cm"], Property::Float(0.25));
         assert!(matches!(vertices[34]["gap_cm"], Property::Float(x) if x.is_nan()));
-        let cells: Vec<Property> =
-            read.payload["face"].iter().map(|face| face["vertex_indices"].clone()).collect();
-        let expected: Vec<Property> =
-            lattice.cells.iter().map(|cell| Property::ListUInt(cell.to_vec())).collect();
+        let cells: Vec<Property> = read.payload["face"]
+            .iter()
+            .map(|face| face["vertex_indices"].clone())
+            .collect();
+        let expected: Vec<Property> = lattice
+            .cells
+            .iter()
+            .map(|cell| Property::ListUInt(cell.to_vec()))
+            .collect();
         assert_eq!(cells, expected);
     }
 }

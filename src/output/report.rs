@@ -177,7 +177,12 @@ mod tests {
                 strain_weft_max: 0.03,
                 shear_max: std::f64::consts::FRAC_PI_6,
             },
-            levels: vec![solver::Level { spacing: 2.0, nodes: 961, sweeps: 210, joint_steps: 3 }],
+            levels: vec![solver::Level {
+                spacing: 2.0,
+                nodes: 961,
+                sweeps: 210,
+                joint_steps: 3,
+            }],
             node_updates: 3_123_456,
             frames: Vec::new(),
         }
@@ -185,7 +190,12 @@ mod tests {
 
     #[test]
     fn keys_stand_in_the_order_of_the_format() {
-        let run = Run { title: "a \"title\"", fabric: "c", seconds: 2.1, threads: 2 };
+        let run = Run {
+            title: "a \"title\"",
+            fabric: "c",
+            seconds: 2.1,
+            threads: 2,
+        };
         let text = report(&settled(), &run);
         let keys: Vec<&str> = text
             .lines()
@@ -203,15 +213,26 @@ mod tests {
 
     #[test]
     fn values_read_back_and_what_is_not_finite_is_null() {
-        let run = Run { title: "a \"title\"", fabric: "c", seconds: 2.1, threads: 2 };
+        let run = Run {
+            title: "a \"title\"",
+            fabric: "c",
+            seconds: 2.1,
+            threads: 2,
+        };
         let read: serde_json::Value = serde_json::from_str(&report(&settled(), &run)).unwrap();
         assert_eq!(read["format"], "soen-report/1");
         assert_eq!(read["title"], "a \"title\"");
-        assert_eq!((&read["nodes"], &read["converged"]), (&6.into(), &false.into()));
+        assert_eq!(
+            (&read["nodes"], &read["converged"]),
+            (&6.into(), &false.into())
+        );
         let proof = &read["certificate"];
         assert_eq!(proof["residual_max"], 6.1e-4);
         assert!(proof["residual_rms"].is_null() && proof["self_crossings"].is_null());
-        assert_eq!(proof["worst_node_cm"], serde_json::json!([0.5, -0.25, null]));
+        assert_eq!(
+            proof["worst_node_cm"],
+            serde_json::json!([0.5, -0.25, null])
+        );
         let shear = read["shape"]["shear_deg_max"].as_f64().unwrap();
         assert!((shear - 30.0).abs() < 1e-12);
         assert_eq!(read["work"]["levels"][0]["joint_steps"], 3);

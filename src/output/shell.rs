@@ -30,8 +30,9 @@ impl Shell {
             }
         };
         let triangles = cloth.lattice.cells.iter().filter_map(divide).flatten();
-        let faces: Vec<Face> =
-            triangles.filter_map(|corners| Face::new(cloth.positions, corners)).collect();
+        let faces: Vec<Face> = triangles
+            .filter_map(|corners| Face::new(cloth.positions, corners))
+            .collect();
         let mut normals = vec![Vec3::zeros(); cloth.positions.len()];
         for face in &faces {
             for (corner, angle) in face.corners.iter().zip(face.angles) {
@@ -49,8 +50,11 @@ impl Shell {
 
     /// A body, smooth but for creases: a vertex where faces meet sharply is doubled.
     pub(super) fn of_body(body: &BodyMesh) -> Self {
-        let mut faces: Vec<Face> =
-            body.triangles.iter().filter_map(|&t| Face::new(&body.vertices, t)).collect();
+        let mut faces: Vec<Face> = body
+            .triangles
+            .iter()
+            .filter_map(|&t| Face::new(&body.vertices, t))
+            .collect();
         let mut shell = Self::default();
         for around in corners_of_vertices(body.vertices.len(), &faces) {
             shell.split_vertex(&body.vertices, &mut faces, &around);
@@ -64,19 +68,28 @@ impl Shell {
     fn split_vertex(&mut self, vertices: &[Vec3], faces: &mut [Face], around: &[(u32, usize)]) {
         let mut shared: Vec<(Vec<u32>, u32)> = Vec::new();
         for &(face, corner) in around {
-            let Some(own) = faces.get(face as usize) else { continue };
-            let Some(vertex) = vertices.get(own.corners[corner] as usize) else { continue };
+            let Some(own) = faces.get(face as usize) else {
+                continue;
+            };
+            let Some(vertex) = vertices.get(own.corners[corner] as usize) else {
+                continue;
+            };
             let mut smooth = Vec::new();
             let mut normal = Vec3::zeros();
             for &(other, at) in around {
-                let Some(met) = faces.get(other as usize) else { continue };
+                let Some(met) = faces.get(other as usize) else {
+                    continue;
+                };
                 // A wheel of so many spokes is round, and pairing them all would be slow.
                 if around.len() > 256 || met.normal.dot(&own.normal) > CREASE_COS {
                     smooth.push(other);
                     normal += met.angles[at] * met.normal;
                 }
             }
-            let known = shared.iter().find(|(faces, _)| *faces == smooth).map(|(_, index)| *index);
+            let known = shared
+                .iter()
+                .find(|(faces, _)| *faces == smooth)
+                .map(|(_, index)| *index);
             let index = known.unwrap_or_else(|| {
                 let index = self.vertices.len() as u32;
                 self.vertices.push(*vertex);
@@ -112,13 +125,22 @@ impl Face {
         let [a, b, c] = corners.map(|corner| vertices.get(corner as usize));
         let points = [*a?, *b?, *c?];
         let normal = (points[1] - points[0]).cross(&(points[2] - points[0]));
-        let normal = normal.try_normalize(1e-12).filter(|n| n.iter().all(|x| x.is_finite()))?;
+        let normal = normal
+            .try_normalize(1e-12)
+            .filter(|n| n.iter().all(|x| x.is_finite()))?;
         let angle = |k: usize| {
-            let (ahead, back) =
-                (points[(k + 1) % 3] - points[k], points[(k + 2) % 3] - points[k]);
+            let (ahead, back) = (
+                points[(k + 1) % 3] - points[k],
+                points[(k + 2) % 3] - points[k],
+            );
             libm::atan2(ahead.cross(&back).norm(), ahead.dot(&back))
         };
-        Some(Self { corners, split: [0; 3], normal, angles: [angle(0), angle(1), angle(2)] })
+        Some(Self {
+            corners,
+            split: [0; 3],
+            normal,
+            angles: [angle(0), angle(1), angle(2)],
+        })
     }
 }
 
@@ -136,7 +158,11 @@ fn corners_of_vertices(vertices: usize, faces: &[Face]) -> Vec<Vec<(u32, usize)>
 }
 
 fn finite_or_origin(p: &Vec3) -> Vec3 {
-    if p.iter().all(|x| x.is_finite()) { *p } else { Vec3::zeros() }
+    if p.iter().all(|x| x.is_finite()) {
+        *p
+    } else {
+        Vec3::zeros()
+    }
 }
 
 /// The direction, up where there is none.
@@ -168,16 +194,29 @@ mod tests {
     #[test]
     fn a_flat_cloth_looks_up_and_broken_nodes_leave_holes() {
         let lattice = sample::rectangle(4, 4, 1.0);
-        let flat: Vec<Vec3> = lattice.coordinates.iter().map(|c| Vec3::new(c.x, c.y, 0.0)).collect();
-        let shell = Shell::of_cloth(&ClothMesh { lattice: &lattice, positions: &flat });
+        let flat: Vec<Vec3> = lattice
+            .coordinates
+            .iter()
+            .map(|c| Vec3::new(c.x, c.y, 0.0))
+            .collect();
+        let shell = Shell::of_cloth(&ClothMesh {
+            lattice: &lattice,
+            positions: &flat,
+        });
         assert_eq!(shell.triangles.len(), 18);
         assert!(shell.normals.iter().all(|n| (n - Vec3::z()).norm() < 1e-12));
         let mut broken = flat;
         broken[0].x = f64::NAN;
-        let shell = Shell::of_cloth(&ClothMesh { lattice: &lattice, positions: &broken });
+        let shell = Shell::of_cloth(&ClothMesh {
+            lattice: &lattice,
+            positions: &broken,
+        });
         assert_eq!(shell.triangles.len(), 16);
         assert!(shell.vertices.iter().flatten().all(|x| x.is_finite()));
-        let few = Shell::of_cloth(&ClothMesh { lattice: &lattice, positions: &broken[..5] });
+        let few = Shell::of_cloth(&ClothMesh {
+            lattice: &lattice,
+            positions: &broken[..5],
+        });
         assert!(few.triangles.is_empty());
     }
 

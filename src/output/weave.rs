@@ -16,7 +16,12 @@ const LINE: f64 = 0.16;
 /// The cloth's colour at cloth coordinates [cm], averaged over a square of side `across` [cm], so
 /// that lines thinner than a pixel fade instead of flickering.
 pub(super) fn weave(at: Vec2, across: f64) -> Rgb {
-    let dyed = |x: f64| [coverage(x, across, 0.5 * REPEAT, LINE), coverage(x, across, REPEAT, 0.5 * REPEAT)];
+    let dyed = |x: f64| {
+        [
+            coverage(x, across, 0.5 * REPEAT, LINE),
+            coverage(x, across, REPEAT, 0.5 * REPEAT),
+        ]
+    };
     // A line along the warp stands at one weft coordinate.
     let ([warp_line, warp_band], [weft_line, weft_band]) = (dyed(at.y), dyed(at.x));
     let cloth = from_srgb([236, 229, 214]) * (1.0 - 0.07 * (warp_band + weft_band));
@@ -37,7 +42,11 @@ pub(super) fn tile(size: u32) -> Image {
     let pixels = (0..size * size)
         .map(|k| to_srgb(weave(Vec2::new(at(k % size), at(k / size)), step)))
         .collect();
-    Image { width: size, height: size, pixels }
+    Image {
+        width: size,
+        height: size,
+        pixels,
+    }
 }
 
 /// Share of `x ± across/2` that lies on stripes of a width, centred at multiples of the period.
@@ -59,7 +68,10 @@ mod tests {
     fn coverage_is_the_share_of_stripes() {
         let check = |x, across, expected: f64| {
             let share = coverage(x, across, 2.0, 0.5);
-            assert!((share - expected).abs() < 1e-6, "{share}, not {expected}, at {x}");
+            assert!(
+                (share - expected).abs() < 1e-6,
+                "{share}, not {expected}, at {x}"
+            );
         };
         check(0.0, 0.1, 1.0);
         check(-4.2, 0.1, 1.0);

@@ -24,16 +24,21 @@ pub struct WriteError {
 /// # Errors
 /// [`WriteError`] where a folder or the sibling cannot be made or filled, or cannot take the name.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    let failed = |source| WriteError { path: path.to_owned(), source };
+    let failed = |source| WriteError {
+        path: path.to_owned(),
+        source,
+    };
     let sibling = sibling(path).ok_or_else(|| failed(io::ErrorKind::InvalidFilename.into()))?;
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder).map_err(failed)?;
     }
-    fill(&sibling, bytes).and_then(|()| fs::rename(&sibling, path)).map_err(|source| {
-        // The sibling may not exist; the first fault is the one worth telling.
-        let _ = fs::remove_file(&sibling);
-        failed(source)
-    })
+    fill(&sibling, bytes)
+        .and_then(|()| fs::rename(&sibling, path))
+        .map_err(|source| {
+            // The sibling may not exist; the first fault is the one worth telling.
+            let _ = fs::remove_file(&sibling);
+            failed(source)
+        })
 }
 
 /// A hidden name beside the file, of this process alone; `None` for a path that ends in no name.

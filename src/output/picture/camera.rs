@@ -4,7 +4,7 @@ use super::trace::Ray;
 use crate::math::Vec3;
 
 /// Vertical field of view [rad]: 30°, a portrait lens.
-const FIELD: f64 = 0.523_6;
+const FIELD: f64 = std::f64::consts::FRAC_PI_6;
 
 /// The camera stands at this angle to the side of −y [rad] …
 const AZIMUTH: f64 = 0.52;
@@ -40,14 +40,22 @@ impl Camera {
         let up = back.cross(&right);
         let half = libm::tan(0.5 * FIELD);
         let wide = half * f64::from(size[0]) / f64::from(size[1]);
-        let room = if legend { 0.58 } else { 0.86 };
+        let room = if legend { 0.52 } else { 0.86 };
         let across = fit(points, right, back, [0.86 * wide, room * wide]);
         // More room below than above: the shadow belongs to the picture.
         let along = fit(points, up, back, [0.80 * half, 0.88 * half]);
         let distance = across[0].max(along[0]).max(1.0);
-        let centre = |fit: [f64; 5]| 0.5 * ((fit[1] - distance * fit[3]) + (distance * fit[4] - fit[2]));
+        let centre =
+            |fit: [f64; 5]| 0.5 * ((fit[1] - distance * fit[3]) + (distance * fit[4] - fit[2]));
         let eye = right * centre(across) + up * centre(along) + back * distance;
-        Self { eye, right, up, back, size, half }
+        Self {
+            eye,
+            right,
+            up,
+            back,
+            size,
+            half,
+        }
     }
 
     /// The ray through a point of the picture, in pixels from its upper left corner.
@@ -55,7 +63,10 @@ impl Camera {
         let pixel = self.pixel();
         let right = pixel * (x - 0.5 * f64::from(self.size[0]));
         let up = pixel * (0.5 * f64::from(self.size[1]) - y);
-        Ray::new(self.eye, (self.right * right + self.up * up - self.back).normalize())
+        Ray::new(
+            self.eye,
+            (self.right * right + self.up * up - self.back).normalize(),
+        )
     }
 
     /// Side of a pixel at distance 1.
@@ -69,7 +80,9 @@ impl Camera {
 /// that the camera's place `c` at a distance `d` must keep `most − d·slope₁ ≤ c ≤ d·slope₀ − least`.
 fn fit(points: &[Vec3], axis: Vec3, back: Vec3, [low, high]: [f64; 2]) -> [f64; 5] {
     let reach = |side: f64, slope: f64| {
-        let reaches = points.iter().map(|p| side * p.dot(&axis) + slope * p.dot(&back));
+        let reaches = points
+            .iter()
+            .map(|p| side * p.dot(&axis) + slope * p.dot(&back));
         reaches.reduce(f64::max).unwrap_or(1.0)
     };
     let (most, least) = (reach(1.0, high), reach(-1.0, low));
@@ -85,21 +98,34 @@ mod tests {
         let from = p - camera.eye;
         let depth = -from.dot(&camera.back);
         let wide = camera.half * f64::from(camera.size[0]) / f64::from(camera.size[1]);
-        [from.dot(&camera.right) / depth / wide, from.dot(&camera.up) / depth / camera.half]
+        [
+            from.dot(&camera.right) / depth / wide,
+            from.dot(&camera.up) / depth / camera.half,
+        ]
     }
 
     #[test]
     fn all_points_are_in_the_picture_and_some_at_its_margin() {
         let points: Vec<Vec3> = (0..50)
-            .map(|k| f64::from(k))
-            .map(|k| Vec3::new(30.0 * libm::sin(k), 90.0 + 20.0 * libm::cos(3.0 * k), k - 70.0))
+            .map(f64::from)
+            .map(|k| {
+                Vec3::new(
+                    30.0 * libm::sin(k),
+                    90.0 + 20.0 * libm::cos(3.0 * k),
+                    k - 70.0,
+                )
+            })
             .collect();
         for legend in [false, true] {
             let camera = Camera::framing(&points, [1200, 900], legend);
             let all: Vec<[f64; 2]> = points.iter().map(|&p| seen(&camera, p)).collect();
-            let right = if legend { 0.58 } else { 0.86 };
-            let inside = |s: &[f64; 2]| s[0] < right + 1e-9 && s[0] > -0.86 - 1e-9
-                && s[1] < 0.88 + 1e-9 && s[1] > -0.80 - 1e-9;
+            let right = if legend { 0.52 } else { 0.86 };
+            let inside = |s: &[f64; 2]| {
+                s[0] < right + 1e-9
+                    && s[0] > -0.86 - 1e-9
+                    && s[1] < 0.88 + 1e-9
+                    && s[1] > -0.80 - 1e-9
+            };
             assert!(all.iter().all(inside), "{all:?}");
             assert!(all.iter().any(|s| s[1] > 0.87) || all.iter().any(|s| s[0] > right - 0.01));
         }

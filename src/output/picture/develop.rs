@@ -9,10 +9,11 @@ use crate::{
     },
 };
 
-/// Lights every sample, and takes the mean of the four of each pixel.
-pub(super) fn develop(samples: &[Sample], camera: &Camera) -> Image {
+/// Lights every sample, and takes the mean of the four of each pixel. For a `chart`, shade on the
+/// cloth is weak, so that its colours are those of the legend.
+pub(super) fn develop(samples: &[Sample], camera: &Camera, chart: bool) -> Image {
     let [width, height] = camera.size.map(|pixels| pixels as usize);
-    let studio = Studio::new(camera);
+    let studio = Studio::new(camera, if chart { 0.55 } else { 1.0 });
     let pixels = rows(height, |y| {
         let pixel = |x: usize| {
             let light = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(right, down)| {
@@ -24,7 +25,11 @@ pub(super) fn develop(samples: &[Sample], camera: &Camera) -> Image {
         };
         (0..width).map(pixel).collect()
     });
-    Image { width: camera.size[0], height: camera.size[1], pixels }
+    Image {
+        width: camera.size[0],
+        height: camera.size[1],
+        pixels,
+    }
 }
 
 /// Colours of the light, and where the lamp is.
@@ -36,14 +41,17 @@ struct Studio {
     sky_light: Rgb,
     floor_light: Rgb,
     backdrop: [Rgb; 3],
+    /// How much of light and shade the cloth shows.
+    relief: f64,
 }
 
 impl Studio {
-    fn new(camera: &Camera) -> Self {
+    fn new(camera: &Camera, relief: f64) -> Self {
         Self {
+            relief,
             lamp: Lamp::beside(camera).towards,
             fill: (camera.right * 0.8 + camera.back * 0.6).normalize(),
-            lamp_light: Rgb::new(0.88, 0.84, 0.78),
+            lamp_light: Rgb::new(0.83, 0.79, 0.73),
             fill_light: Rgb::new(0.08, 0.085, 0.10),
             sky_light: Rgb::new(0.40, 0.43, 0.48),
             floor_light: Rgb::new(0.22, 0.20, 0.18),
@@ -64,7 +72,13 @@ impl Studio {
             }
             Met::Body | Met::Cloth => {
                 let normal = Vec3::from(sample.normal.map(f64::from));
-                colour.component_mul(&self.falling_on(normal, lamp, sky))
+                let relief = if sample.on == Met::Cloth {
+                    self.relief
+                } else {
+                    1.0
+                };
+                let light = Rgb::repeat(1.0).lerp(&self.falling_on(normal, lamp, sky), relief);
+                colour.component_mul(&light)
             }
         }
     }
@@ -89,5 +103,67 @@ impl Studio {
         };
         let (x, y) = (across - 0.5, along - 0.5);
         paper * (1.0 - 0.22 * (x * x + 0.6 * y * y))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera() -> Camera {
+        Camera::framing(&[Vec3::zeros(), Vec3::repeat(10.0)], [4, 3], false)
+    }
+
+    #[test]
+    fn a_surface_is_brighter_towards_the_lamp_and_in_its_light() {
+        let camera = camera();
+        let studio = Studio::new(&camera, 1.0);
+        let lit = studio.falling_on(studio.lamp, 1.0, 1.0);
+        let shaded = studio.falling_on(studio.lamp, 0.0, 1.0);
+        let hidden = studio.falling_on(studio.lamp, 0.0, 0.0);
+        assert!(lit.x > 2.0 * shaded.x && shaded.x > hidden.x && hidden.x == 0.0);
+        // White paper facing the lamp is not overexposed by much.
+        assert!(lit.max() < 1.4, "{lit:?}");
+    }
+
+    #[test]
+    fn a_floor_without_shadow_is_backdrop() {
+        let studio = Studio::new(&camera(), 1.0);
+        let floor = |light, colour| {
+            let sample = Sample {
+                on: Met::Floor,
+                colour,
+                lamp: light,
+                sky: light,
+                ..Sample::default()
+            };
+            studio.light(&sample, 0.3, 0.8)
+        };
+        let backdrop = studio.light(&Sample::default(), 0.3, 0.8);
+        assert!((floor(1.0, [1.0; 3]) - backdrop).amax() < 1e-6);
+        assert!((floor(0.0, [0.0; 3]) - backdrop).amax() < 1e-6);
+        assert!(floor(0.2, [1.0; 3]).max() < 0.5 * backdrop.max());
+    }
+
+    #[test]
+    fn a_pixel_is_the_mean_of_its_four_samples() {
+        let mut samples = vec![Sample::default(); 48];
+        for k in [0, 1, 8, 9] {
+            // Black cloth in the first pixel, in three of four samples of the next below.
+            samples[k] = Sample {
+                on: Met::Cloth,
+                ..Sample::default()
+            };
+        }
+        for k in [16, 17, 24] {
+            samples[k] = Sample {
+                on: Met::Cloth,
+                ..Sample::default()
+            };
+        }
+        let image = develop(&samples, &camera(), false);
+        assert_eq!(image.pixels[0], [0; 3]);
+        let quarter = Studio::new(&camera(), 1.0).light(&Sample::default(), 0.0, 1.0 / 3.0) / 4.0;
+        assert_eq!(image.pixels[4], to_srgb(quarter));
     }
 }

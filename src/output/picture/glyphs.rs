@@ -20,7 +20,11 @@ pub(super) fn write(image: &mut Image, text: &str, [x, y]: [f64; 2], scale: f64,
 
 /// Width of a line of text [pixels].
 pub(super) fn width(text: &str, scale: f64) -> f64 {
-    scale * text.chars().map(|letter| Glyph::of(letter).advance).sum::<f64>()
+    scale
+        * text
+            .chars()
+            .map(|letter| Glyph::of(letter).advance)
+            .sum::<f64>()
 }
 
 /// A stroke of the pen between two dots (across, down).
@@ -48,13 +52,25 @@ impl Glyph {
                 start: start as f64,
                 advance: (end - start) as f64 + 2.0,
             },
-            Some(_) => Self { rows, start: 0.0, advance: 6.0 },
-            None => Self { rows, start: 0.0, advance: 3.5 },
+            Some(_) => Self {
+                rows,
+                start: 0.0,
+                advance: 6.0,
+            },
+            None => Self {
+                rows,
+                start: 0.0,
+                advance: 3.5,
+            },
         }
     }
 
     fn dot(&self, column: usize, row: usize) -> bool {
-        self.rows.get(row).and_then(|row| row.get(column)).copied().unwrap_or(false)
+        self.rows
+            .get(row)
+            .and_then(|row| row.get(column))
+            .copied()
+            .unwrap_or(false)
     }
 
     /// Dots beside each other are joined, and across a corner where nothing else joins them.
@@ -90,8 +106,14 @@ fn ink_strokes(image: &mut Image, strokes: &[Stroke], [x, y]: [f64; 2], scale: f
     let (columns, rows) = ((7.0 * scale) as i64, ((ROWS as f64 + 2.0) * scale) as i64);
     for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
         let (px, py) = ((x - scale) as i64 + column, (y - scale) as i64 + row);
-        let at = [(px as f64 + 0.5 - x) / scale - 0.5, (py as f64 + 0.5 - y) / scale - 0.5];
-        let nearest = strokes.iter().map(|stroke| distance(at, *stroke)).fold(f64::MAX, f64::min);
+        let at = [
+            (px as f64 + 0.5 - x) / scale - 0.5,
+            (py as f64 + 0.5 - y) / scale - 0.5,
+        ];
+        let nearest = strokes
+            .iter()
+            .map(|stroke| distance(at, *stroke))
+            .fold(f64::MAX, f64::min);
         image.blend(px, py, ink, pen - scale * nearest + 0.5);
     }
 }
@@ -109,7 +131,10 @@ fn distance([x, y]: [f64; 2], [from, to]: Stroke) -> f64 {
 fn dots(letter: char) -> Option<[[bool; 5]; ROWS]> {
     let lines: Vec<&str> = TYPE_CASE.trim_matches('\n').lines().collect();
     let (band, place) = lines.chunks(ROWS + 1).find_map(|band| {
-        let place = band.first()?.chars().position(|c| c == letter && c != ' ')?;
+        let place = band
+            .first()?
+            .chars()
+            .position(|c| c == letter && c != ' ')?;
         Some((band, place))
     })?;
     Some(std::array::from_fn(|row| {
@@ -122,11 +147,11 @@ fn dots(letter: char) -> Option<[[bool; 5]; ROWS]> {
 const TYPE_CASE: &str = r##"
 !     "     #     $     %     &     '     (     )     *     +     ,     -     .
 ..#.. .#.#. .#.#. ..#.. ##..# .##.. ..#.. ...#. .#... ..... ..... ..... ..... .....
-..#.. .#.#. .#.#. .#### ##..# #..#. ..#.. ..#.. ..#.. #.#.# ..#.. ..... ..... .....
+..#.. .#.#. .#.#. .#### ##.#. #..#. ..#.. ..#.. ..#.. #.#.# ..#.. ..... ..... .....
 ..#.. ..... ##### #.#.. ...#. #.#.. ..... .#... ...#. .###. ..#.. ..... ..... .....
 ..#.. ..... .#.#. .###. ..#.. .#... ..... .#... ...#. ##### ##### ..... .###. .....
 ..#.. ..... ##### ..#.# .#... #.#.# ..... .#... ...#. .###. ..#.. ..... ..... .....
-..... ..... .#.#. ####. #..## #..#. ..... ..#.. ..#.. #.#.# ..#.. ..... ..... .....
+..... ..... .#.#. ####. .#.## #..#. ..... ..#.. ..#.. #.#.# ..#.. ..... ..... .....
 ..#.. ..... .#.#. ..#.. #..## .##.# ..... ...#. .#... ..... ..... ..#.. ..... ..#..
 ..... ..... ..... ..... ..... ..... ..... ..... ..... ..... ..... ..#.. ..... .....
 ..... ..... ..... ..... ..... ..... ..... ..... ..... ..... ..... .#... ..... .....
@@ -199,7 +224,10 @@ mod tests {
     #[test]
     fn every_printable_letter_has_a_shape_of_its_own() {
         let letters: Vec<char> = ('!'..='~').chain(['°']).collect();
-        let shapes: Vec<_> = letters.iter().map(|&letter| dots(letter).unwrap()).collect();
+        let shapes: Vec<_> = letters
+            .iter()
+            .map(|&letter| dots(letter).unwrap())
+            .collect();
         for (k, shape) in shapes.iter().enumerate() {
             assert!(shape.as_flattened().contains(&true), "{}", letters[k]);
             // Nought and O are drawn alike, as on old typewriters.
@@ -213,20 +241,28 @@ mod tests {
 
     #[test]
     fn a_letter_is_drawn_where_it_is_asked_for() {
-        let mut image = Image { width: 40, height: 40, pixels: vec![[255; 3]; 1600] };
+        let mut image = Image {
+            width: 40,
+            height: 40,
+            pixels: vec![[255; 3]; 1600],
+        };
         write(&mut image, "-", [10.0, 10.0], 2.0, [0; 3]);
         let dark = |k: &usize| image.pixels[*k][0] < 128;
-        let inked: Vec<(usize, usize)> =
-            (0..1600).filter(dark).map(|k| (k % 40, k / 40)).collect();
+        let inked: Vec<(usize, usize)> = (0..1600).filter(dark).map(|k| (k % 40, k / 40)).collect();
         // Three dots from the left in the fourth row, each 2 × 2 pixels.
-        let expected: Vec<(usize, usize)> =
-            (16..18).flat_map(|y| (10..16).map(move |x| (x, y))).collect();
+        let expected: Vec<(usize, usize)> = (16..18)
+            .flat_map(|y| (10..16).map(move |x| (x, y)))
+            .collect();
         assert_eq!(inked, expected);
     }
 
     #[test]
     fn text_beyond_the_picture_is_cut_off() {
-        let mut image = Image { width: 9, height: 9, pixels: vec![[255; 3]; 81] };
+        let mut image = Image {
+            width: 9,
+            height: 9,
+            pixels: vec![[255; 3]; 81],
+        };
         write(&mut image, "###", [-20.0, 5.0], 3.0, [0; 3]);
         assert!(image.pixels.contains(&[0; 3]) && width("0 0", 2.0) == 31.0);
     }

@@ -27,23 +27,34 @@ impl Lamp {
         let level = Vec3::z().cross(&camera.right);
         let towards = (Vec3::z() * 1.15 - camera.right * 0.80 - level * 0.55).normalize();
         let places = PERIOD * PERIOD;
-        let points = (0..places).map(|k| disc(k, places)).map(|[x, y]| {
-            about(towards, Vec3::new(LAMP * x, LAMP * y, 1.0)).normalize()
-        });
+        let points = (0..places)
+            .map(|k| disc(k, places))
+            .map(|[x, y]| about(towards, Vec3::new(LAMP * x, LAMP * y, 1.0)).normalize());
         // A disc lifted to the half ball: as many directions as light falls from them.
-        let lift = |[x, y]: [f64; 2]| Vec3::new(x, y, libm::sqrt(f64::max(1.0 - x * x - y * y, 0.0)));
+        let lift =
+            |[x, y]: [f64; 2]| Vec3::new(x, y, libm::sqrt(f64::max(1.0 - x * x - y * y, 0.0)));
         let sky = (0..places).map(|k| lift(disc(k, places)));
-        Self { towards, points: points.collect(), sky: sky.collect() }
+        Self {
+            towards,
+            points: points.collect(),
+            sky: sky.collect(),
+        }
     }
 
     /// To the point of the lamp that belongs to a sample of the picture.
     pub(super) fn point(&self, x: usize, y: usize) -> Vec3 {
-        self.points.get(place(x, y)).copied().unwrap_or(self.towards)
+        self.points
+            .get(place(x, y))
+            .copied()
+            .unwrap_or(self.towards)
     }
 
     /// To the point of the sky over a surface that belongs to a sample of the picture.
     pub(super) fn sky(&self, x: usize, y: usize, normal: Vec3) -> Vec3 {
-        about(normal, self.sky.get(place(x, y)).copied().unwrap_or(Vec3::z()))
+        about(
+            normal,
+            self.sky.get(place(x, y)).copied().unwrap_or(Vec3::z()),
+        )
     }
 }
 
@@ -68,7 +79,11 @@ fn disc(k: usize, n: usize) -> [f64; 2] {
 
 /// A direction given about +z, turned to be about another.
 fn about(axis: Vec3, direction: Vec3) -> Vec3 {
-    let other = if axis.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() };
+    let other = if axis.x.abs() < 0.6 {
+        Vec3::x()
+    } else {
+        Vec3::y()
+    };
     let first = axis.cross(&other).normalize();
     let second = axis.cross(&first);
     first * direction.x + second * direction.y + axis * direction.z
@@ -81,8 +96,9 @@ mod tests {
     #[test]
     fn every_place_of_the_pattern_is_taken_once_in_any_window() {
         for (left, top) in [(0, 0), (3, 5)] {
-            let mut places: Vec<usize> =
-                (0..64).map(|k| place(left + k % PERIOD, top + k / PERIOD)).collect();
+            let mut places: Vec<usize> = (0..64)
+                .map(|k| place(left + k % PERIOD, top + k / PERIOD))
+                .collect();
             places.sort_unstable();
             assert_eq!(places, (0..64).collect::<Vec<_>>());
         }

@@ -13,16 +13,30 @@ pub(super) fn draw(image: &mut Image, heat: &HeatMap) {
     bar.fill(image, &scale);
     bar.ticks(image, &scale);
     let title = format!("{} [{}]", heat.map.title(), heat.map.unit());
-    let letter = bar.letter.min(0.26 * f64::from(image.width) / width(&title, 1.0));
+    let letter = bar
+        .letter
+        .min(0.26 * f64::from(image.width) / width(&title, 1.0));
     // Kept off the right margin, a title longer than bar and figures moves to the left.
     let right = f64::from(image.width) - bar.letter * 6.0;
     let left = bar.left.min(right - width(&title, letter));
-    write(image, &title, [left, bar.top - 14.0 * bar.letter], letter, INK);
+    write(
+        image,
+        &title,
+        [left, bar.top - 14.0 * bar.letter],
+        letter,
+        INK,
+    );
     if let Some((least, most)) = heat.extremes() {
         let digits = digits(&scale) + 1;
         let range = format!("{} to {}", number(least, digits), number(most, digits));
         let left = bar.left.min(right - width(&range, 0.8 * bar.letter));
-        write(image, &range, [left, bar.bottom + 7.0 * bar.letter], 0.8 * bar.letter, INK);
+        write(
+            image,
+            &range,
+            [left, bar.bottom + 7.0 * bar.letter],
+            0.8 * bar.letter,
+            INK,
+        );
     }
 }
 
@@ -30,7 +44,10 @@ pub(super) fn draw(image: &mut Image, heat: &HeatMap) {
 pub(super) fn caption(image: &mut Image, text: &str) {
     let letter = letter(image);
     let room = 0.92 * f64::from(image.width) / width(text, 1.0).max(1.0);
-    let at = [0.04 * f64::from(image.width), f64::from(image.height) - 16.0 * letter];
+    let at = [
+        0.04 * f64::from(image.width),
+        f64::from(image.height) - 16.0 * letter,
+    ];
     write(image, text, at, letter.min(room), INK);
 }
 
@@ -52,7 +69,7 @@ impl Bar {
     fn new(image: &Image) -> Self {
         let (width, height) = (f64::from(image.width), f64::from(image.height));
         Self {
-            left: 0.835 * width,
+            left: 0.80 * width,
             width: 0.024 * width,
             top: 0.24 * height,
             bottom: 0.76 * height,
@@ -85,7 +102,13 @@ impl Bar {
                 image.blend(right as i64 + x, (y - 0.5 * thick) as i64 + row, INK, 1.0);
             }
             let text = number(tick as f64 * scale.step, digits(scale));
-            write(image, &text, [right + 5.0 * self.letter, y - 3.5 * self.letter], self.letter, INK);
+            write(
+                image,
+                &text,
+                [right + 5.0 * self.letter, y - 3.5 * self.letter],
+                self.letter,
+                INK,
+            );
         }
     }
 }
@@ -121,19 +144,47 @@ mod tests {
 
     #[test]
     fn ticks_have_as_many_decimals_as_they_need() {
-        let digits = |step| digits(&Scale { signed: false, step, steps: 4 });
-        assert_eq!([5.0, 1.0, 0.5, 0.1, 0.02, 0.001].map(digits), [0, 0, 1, 1, 2, 3]);
+        let digits = |step| {
+            digits(&Scale {
+                signed: false,
+                step,
+                steps: 4,
+            })
+        };
+        assert_eq!(
+            [5.0, 1.0, 0.5, 0.1, 0.02, 0.001].map(digits),
+            [0, 0, 1, 1, 2, 3]
+        );
     }
 
     #[test]
     fn the_bar_shows_the_colours_of_its_ends() {
-        let mut image = Image { width: 1200, height: 900, pixels: vec![[255; 3]; 1200 * 900] };
-        let heat = HeatMap { map: Map::StrainWarp, values: vec![-2.0, 1.0] };
+        let mut image = Image {
+            width: 1200,
+            height: 900,
+            pixels: vec![[255; 3]; 1200 * 900],
+        };
+        let heat = HeatMap {
+            map: Map::StrainWarp,
+            values: vec![-2.0, 1.0],
+        };
         draw(&mut image, &heat);
-        let at = |y: usize| image.pixels[y * 1200 + 1015];
+        let at = |y: usize| image.pixels[y * 1200 + 975];
         let near = |a: [u8; 3], b: [u8; 3]| a.iter().zip(b).all(|(a, b)| a.abs_diff(b) < 3);
-        assert!(near(at(217), to_srgb(heat.scale().colour(2.0))), "{:?}", at(217));
-        assert!(near(at(682), to_srgb(heat.scale().colour(-2.0))), "{:?}", at(682));
-        assert!(near(at(450), to_srgb(heat.scale().colour(0.0))), "{:?}", at(450));
+        assert!(
+            near(at(217), to_srgb(heat.scale().colour(2.0))),
+            "{:?}",
+            at(217)
+        );
+        assert!(
+            near(at(682), to_srgb(heat.scale().colour(-2.0))),
+            "{:?}",
+            at(682)
+        );
+        assert!(
+            near(at(450), to_srgb(heat.scale().colour(0.0))),
+            "{:?}",
+            at(450)
+        );
     }
 }

@@ -36,14 +36,19 @@ pub struct View<'a> {
 
 impl Default for View<'_> {
     fn default() -> Self {
-        Self { width: 1200, height: 900, heat: None, caption: None }
+        Self {
+            width: 1200,
+            height: 900,
+            heat: None,
+            caption: None,
+        }
     }
 }
 
 impl View<'_> {
     /// The greatest width and height; a picture asked for larger is this size, as is one of 0 that
     /// of 1.
-    pub const MOST: u32 = 4096;
+    pub const MOST: u32 = 2400;
 }
 
 /// Takes a picture of a cloth and bodies; a PNG file.
@@ -51,12 +56,15 @@ impl View<'_> {
 /// The camera stands three quarters to the side and looks down a little; it frames the cloth, and
 /// the bodies as far as they reach around it.
 pub fn picture(cloth: &ClothMesh<'_>, bodies: &[BodyMesh], view: &View<'_>) -> Vec<u8> {
-    let (width, height) = (view.width.clamp(1, View::MOST), view.height.clamp(1, View::MOST));
+    let (width, height) = (
+        view.width.clamp(1, View::MOST),
+        view.height.clamp(1, View::MOST),
+    );
     let stage = Stage::new(cloth, bodies, view.heat);
     let camera = Camera::framing(&stage.subject(), [width, height], view.heat.is_some());
     let mut samples = stage.expose(&camera);
     soften(&mut samples, 2 * width as usize);
-    let mut image = develop(&samples, &camera);
+    let mut image = develop(&samples, &camera, view.heat.is_some());
     if let Some(heat) = view.heat {
         legend::draw(&mut image, heat);
     }
@@ -113,28 +121,108 @@ fn rows<T: Send>(count: usize, row: impl Fn(usize) -> Vec<T> + Send + Sync) -> V
 }
 
 #[cfg(test)]
-mod look {
+mod tests {
     use super::*;
-    use crate::{math::Vec3, output::{sample, Map}};
+    use crate::{
+        math::Vec3,
+        output::{Map, png, sample},
+    };
+
+    const SMALL: View<'_> = View {
+        width: 80,
+        height: 60,
+        heat: None,
+        caption: None,
+    };
+
+    fn draped(view: &View<'_>) -> Vec<u8> {
+        let (lattice, positions) = sample::draped(41, 1.5, 12.0);
+        let cloth = ClothMesh {
+            lattice: &lattice,
+            positions: &positions,
+        };
+        picture(
+            &cloth,
+            &[sample::ball(Vec3::new(0.0, 0.0, -12.0), 12.0, 30)],
+            view,
+        )
+    }
+
     #[test]
-    fn look() {
-        let size: u32 = std::env::var("W").map_or(800, |w| w.parse().unwrap());
-        let view = View { width: size, height: size * 3 / 4, ..View::default() };
-        let save = |name: &str, bytes: Vec<u8>| std::fs::write(format!("/tmp/look/{name}.png"), bytes).unwrap();
-        let (lattice, positions) = sample::draped(121, 0.5, 12.0);
-        let cloth = ClothMesh { lattice: &lattice, positions: &positions };
-        let ball = sample::ball(Vec3::new(0.0, 0.0, -12.0), 12.0, 110);
-        let t = std::time::Instant::now();
-        let p = picture(&cloth, &[ball.clone()], &view);
-        eprintln!("{:?} {} nodes {} faces", t.elapsed(), positions.len(), ball.triangles.len());
-        save("ball", p);
+    fn a_picture_has_the_size_that_was_asked_for() {
+        let image = png::tests::read(&draped(&SMALL));
+        assert_eq!((image.width, image.height), (80, 60));
+        // The backdrop is grey and bright; the cloth hides it in the middle.
+        let spread = |p: [u8; 3]| p.iter().max().unwrap() - p.iter().min().unwrap();
+        assert!(image.pixels[0].iter().all(|&x| x > 170) && spread(image.pixels[0]) < 12);
+        assert!(image.pixels.iter().any(|&p| spread(p) > 25));
+    }
+
+    #[cfg(feature = "threads")]
+    #[test]
+    fn the_number_of_threads_does_not_show() {
+        let with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
+            pool.install(|| draped(&SMALL))
+        };
+        let one = with(1);
+        assert!(one == with(2) && one == with(7));
+    }
+
+    #[test]
+    fn heat_and_caption_change_the_picture() {
+        let (lattice, positions) = sample::draped(41, 1.5, 12.0);
+        let cloth = ClothMesh {
+            lattice: &lattice,
+            positions: &positions,
+        };
         let heat = HeatMap::of(Map::Shear, &cloth, None, None).unwrap();
-        save("shear", picture(&cloth, &[ball.clone()], &View { heat: Some(&heat), ..view }));
-        let heat = HeatMap::of(Map::StrainWarp, &cloth, None, None).unwrap();
-        save("strain", picture(&cloth, &[ball], &View { heat: Some(&heat), caption: Some("Not at rest: residual 0.37"), ..view }));
-        let (lattice, positions) = sample::wave(41, 31, 0.5);
-        let cloth = ClothMesh { lattice: &lattice, positions: &positions };
-        let table = sample::cuboid(Vec3::new(-8.0, -6.0, -9.0), Vec3::new(8.0, 6.0, -3.2));
-        save("table", picture(&cloth, &[table], &view));
+        let plain = draped(&SMALL);
+        assert!(
+            draped(&View {
+                heat: Some(&heat),
+                ..SMALL
+            }) != plain
+        );
+        assert!(
+            draped(&View {
+                caption: Some("not at rest"),
+                ..SMALL
+            }) != plain
+        );
+    }
+
+    #[test]
+    fn nothing_and_broken_shapes_still_give_a_picture() {
+        let (lattice, mut positions) = sample::wave(5, 5, 1.0);
+        let empty = ClothMesh {
+            lattice: &lattice,
+            positions: &[],
+        };
+        assert!(!picture(&empty, &[], &View { width: 0, ..SMALL }).is_empty());
+        positions[7] = Vec3::new(f64::NAN, f64::INFINITY, 1e300);
+        positions[12] = Vec3::repeat(1e200);
+        let broken = ClothMesh {
+            lattice: &lattice,
+            positions: &positions,
+        };
+        let heat = HeatMap {
+            map: Map::Gap,
+            values: vec![f64::INFINITY, f64::NAN, 1e300],
+        };
+        assert!(
+            !picture(
+                &broken,
+                &[],
+                &View {
+                    heat: Some(&heat),
+                    ..SMALL
+                }
+            )
+            .is_empty()
+        );
     }
 }

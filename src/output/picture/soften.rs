@@ -6,21 +6,27 @@ use super::{Sample, lamp::PERIOD, rows};
 /// lie on the same surface. Where all of them do, each place in the pattern counts once.
 pub(super) fn soften(samples: &mut [Sample], width: usize) {
     let height = samples.len() / width.max(1);
-    let light = rows(height, |y| (0..width).map(|x| mean(samples, width, x, y)).collect());
+    let light = rows(height, |y| {
+        (0..width).map(|x| mean(samples, width, x, y)).collect()
+    });
     for (sample, [lamp, sky]) in samples.iter_mut().zip(light) {
         (sample.lamp, sample.sky) = (lamp, sky);
     }
 }
 
 fn mean(samples: &[Sample], width: usize, x: usize, y: usize) -> [f32; 2] {
-    let Some(own) = samples.get(y * width + x) else { return [0.0; 2] };
+    let Some(own) = samples.get(y * width + x) else {
+        return [0.0; 2];
+    };
     if own.on == super::Met::Nothing {
         return [1.0; 2];
     }
     let (left, right) = (x.saturating_sub(PERIOD / 2), (x + PERIOD / 2).min(width));
     let [mut lamp, mut sky, mut count] = [0.0_f32; 3];
     for row in y.saturating_sub(PERIOD / 2)..y + PERIOD / 2 {
-        let around = samples.get(row * width + left..row * width + right).unwrap_or_default();
+        let around = samples
+            .get(row * width + left..row * width + right)
+            .unwrap_or_default();
         for other in around.iter().filter(|other| same_surface(own, other)) {
             lamp += other.lamp;
             sky += other.sky;
@@ -44,7 +50,11 @@ mod tests {
 
     fn wall(width: usize, height: usize) -> Vec<Sample> {
         let at = |k: usize| Sample {
-            on: if k % width < 10 { Met::Body } else { Met::Cloth },
+            on: if k % width < 10 {
+                Met::Body
+            } else {
+                Met::Cloth
+            },
             normal: [0.0, 0.0, 1.0],
             depth: 100.0,
             lamp: ((k % 2) ^ (k / width % 2)) as f32,
@@ -70,6 +80,9 @@ mod tests {
         }
         let before: Vec<f32> = samples.iter().map(|sample| sample.lamp).collect();
         soften(&mut samples, 40);
-        assert_eq!(samples.iter().map(|sample| sample.lamp).collect::<Vec<_>>(), before);
+        assert_eq!(
+            samples.iter().map(|sample| sample.lamp).collect::<Vec<_>>(),
+            before
+        );
     }
 }

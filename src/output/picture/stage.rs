@@ -41,7 +41,11 @@ pub(super) struct Stage<'a> {
 
 impl<'a> Stage<'a> {
     /// Sets cloth and bodies on a floor.
-    pub(super) fn new(cloth: &ClothMesh<'a>, bodies: &[BodyMesh], heat: Option<&'a HeatMap>) -> Self {
+    pub(super) fn new(
+        cloth: &ClothMesh<'a>,
+        bodies: &[BodyMesh],
+        heat: Option<&'a HeatMap>,
+    ) -> Self {
         let cloth_shell = Shell::of_cloth(cloth);
         let mut body_shell = Shell::default();
         for body in bodies {
@@ -65,7 +69,11 @@ impl<'a> Stage<'a> {
         // A body stands on the floor; a cloth that hangs lower than it hangs free.
         let hang = lowest(stage.cloth.shell()).map(|z| z - 0.06 * stage.radius);
         let stand = lowest(stage.bodies.shell());
-        stage.floor = hang.into_iter().chain(stand).reduce(f64::min).unwrap_or(0.0);
+        stage.floor = hang
+            .into_iter()
+            .chain(stand)
+            .reduce(f64::min)
+            .unwrap_or(0.0);
         stage
     }
 
@@ -85,18 +93,18 @@ impl<'a> Stage<'a> {
     pub(super) fn expose(&self, camera: &Camera) -> Vec<Sample> {
         let lamp = Lamp::beside(camera);
         let [width, height] = camera.size.map(|pixels| 2 * pixels as usize);
-        rows(height, |y| (0..width).map(|x| self.sample(camera, &lamp, x, y)).collect())
+        rows(height, |y| {
+            (0..width)
+                .map(|x| self.sample(camera, &lamp, x, y))
+                .collect()
+        })
     }
 
     fn sample(&self, camera: &Camera, lamp: &Lamp, x: usize, y: usize) -> Sample {
-        // A square of four, turned so that edges near the axes are still seen in four steps.
-        let shift = [[0.125, 0.125], [-0.125, 0.125]];
-        let turn = |a: usize, b: usize, k: usize| {
-            let sign = if a % 2 == 0 { 1.0 } else { -1.0 };
-            sign * shift[(b + k) % 2][k % 2]
-        };
-        let across = 0.5 * (x as f64 + 0.5) + turn(x, y, 0) * 0.5;
-        let along = 0.5 * (y as f64 + 0.5) + turn(y, x, 1) * 0.5;
+        // A turned square of four, so that an edge along a row or a column is seen in four steps.
+        let turn = |odd: bool| if odd { 0.125 } else { -0.125 };
+        let across = 0.5 * (x as f64 + 0.5) + turn(y % 2 == 1);
+        let along = 0.5 * (y as f64 + 0.5) - turn(x % 2 == 1);
         let ray = camera.ray(across, along);
         let Some(seen) = self.look(&ray, camera.pixel()) else {
             return Sample::default();
@@ -115,7 +123,9 @@ impl<'a> Stage<'a> {
     /// What a ray meets first.
     fn look(&self, ray: &Ray, pixel: f64) -> Option<Seen> {
         let cloth = self.cloth.hit(ray, f64::MAX);
-        let body = self.bodies.hit(ray, cloth.map_or(f64::MAX, |hit| hit.distance));
+        let body = self
+            .bodies
+            .hit(ray, cloth.map_or(f64::MAX, |hit| hit.distance));
         match (cloth, body) {
             (Some(cloth), Some(body)) if !covers(&cloth, &body, ray) => Some(self.body(ray, &body)),
             (Some(cloth), _) => Some(self.cloth(ray, &cloth, pixel)),
@@ -159,7 +169,11 @@ impl<'a> Stage<'a> {
         // The colour says how much of the shadow is left.
         let left = 1.0 - smooth_step(1.4, 3.2, reach);
         (ray.direction.z < 0.0 && left > 0.0).then(|| Seen {
-            on: Met::Floor, distance, normal, facing: normal, colour: Rgb::repeat(left),
+            on: Met::Floor,
+            distance,
+            normal,
+            facing: normal,
+            colour: Rgb::repeat(left),
         })
     }
 
@@ -173,11 +187,22 @@ impl<'a> Stage<'a> {
     fn sky_seen(&self, start: Vec3, towards: Vec3) -> f32 {
         let ray = Ray::new(start, towards);
         let within = 0.7 * self.radius;
-        let cloth = self.cloth.hit(&ray, within).map_or(within, |hit| hit.distance);
-        let nearest = self.bodies.hit(&ray, cloth).map_or(cloth, |hit| hit.distance);
+        let cloth = self
+            .cloth
+            .hit(&ray, within)
+            .map_or(within, |hit| hit.distance);
+        let nearest = self
+            .bodies
+            .hit(&ray, cloth)
+            .map_or(cloth, |hit| hit.distance);
         let floor = (self.floor - start.z) / ray.direction.z.min(-1e-9);
-        let below = if ray.direction.z < 0.0 { floor.max(0.0) } else { within };
-        (nearest.min(0.6 * within + 0.4 * below) / within).clamp(0.0, 1.0) as f32
+        let below = if ray.direction.z < 0.0 {
+            floor.clamp(0.0, within)
+        } else {
+            within
+        };
+        // The floor is bright itself, so it takes away less than half of what it hides.
+        (nearest.min(within - 0.4 * (within - below)) / within) as f32
     }
 }
 
@@ -193,8 +218,18 @@ struct Seen {
 
 impl Seen {
     fn new(on: Met, ray: &Ray, hit: &Hit, normal: Vec3, colour: Rgb) -> Self {
-        let side = if hit.normal.dot(&ray.direction) > 0.0 { -1.0 } else { 1.0 };
-        Self { on, distance: hit.distance, normal: normal * side, facing: hit.normal * side, colour }
+        let side = if hit.normal.dot(&ray.direction) > 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        Self {
+            on,
+            distance: hit.distance,
+            normal: normal * side,
+            facing: hit.normal * side,
+            colour,
+        }
     }
 }
 
@@ -209,20 +244,116 @@ fn append(all: &mut Shell, more: Shell) {
     let first = all.vertices.len() as u32;
     all.vertices.extend(more.vertices);
     all.normals.extend(more.normals);
-    all.triangles.extend(more.triangles.iter().map(|corners| corners.map(|k| first + k)));
+    all.triangles.extend(
+        more.triangles
+            .iter()
+            .map(|corners| corners.map(|k| first + k)),
+    );
 }
 
 /// The corners of all triangles.
 fn drawn(shell: &Shell) -> impl Iterator<Item = Vec3> + '_ {
-    shell.triangles.as_flattened().iter().filter_map(|&k| shell.vertices.get(k as usize).copied())
+    shell
+        .triangles
+        .as_flattened()
+        .iter()
+        .filter_map(|&k| shell.vertices.get(k as usize).copied())
 }
 
 fn bounds(points: impl Iterator<Item = Vec3>) -> Option<(Vec3, Vec3)> {
-    points.map(|p| (p, p)).reduce(|(low, high), (p, _)| (low.inf(&p), high.sup(&p)))
+    points
+        .map(|p| (p, p))
+        .reduce(|(low, high), (p, _)| (low.inf(&p), high.sup(&p)))
 }
 
 /// 0 before the start, 1 after the end, smooth between.
 fn smooth_step(start: f64, end: f64, x: f64) -> f64 {
     let t = ((x - start) / (end - start)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{lattice::Lattice, output::sample};
+
+    fn flat(lattice: &Lattice, z: f64) -> Vec<Vec3> {
+        lattice
+            .coordinates
+            .iter()
+            .map(|c| Vec3::new(c.x, c.y, z))
+            .collect()
+    }
+
+    fn seen_from_above(cloth_at: f64) -> Option<Met> {
+        let lattice = sample::rectangle(5, 5, 1.0);
+        let positions = flat(&lattice, cloth_at);
+        let cloth = ClothMesh {
+            lattice: &lattice,
+            positions: &positions,
+        };
+        let table = sample::cuboid(Vec3::new(-9.0, -9.0, -5.0), Vec3::new(9.0, 9.0, 0.0));
+        let stage = Stage::new(&cloth, &[table], None);
+        let slanted = Vec3::new(0.3, 0.2, -1.0).normalize();
+        stage
+            .look(&Ray::new(slanted * -40.0, slanted), 1e-3)
+            .map(|seen| seen.on)
+    }
+
+    #[test]
+    fn a_cloth_that_lies_on_a_body_hides_it() {
+        assert_eq!(seen_from_above(0.02), Some(Met::Cloth));
+        assert_eq!(seen_from_above(-0.05), Some(Met::Cloth));
+        assert_eq!(seen_from_above(-0.5), Some(Met::Body));
+    }
+
+    #[test]
+    fn a_body_stands_on_the_floor_and_a_cloth_hangs_above_it() {
+        let lattice = sample::rectangle(5, 5, 1.0);
+        let positions = flat(&lattice, 3.0);
+        let cloth = ClothMesh {
+            lattice: &lattice,
+            positions: &positions,
+        };
+        let table = sample::cuboid(Vec3::new(-1.0, -1.0, -5.0), Vec3::new(1.0, 1.0, 0.0));
+        assert_eq!(Stage::new(&cloth, &[table], None).floor, -5.0);
+        let alone = Stage::new(&cloth, &[], None).floor;
+        assert!((2.5..3.0).contains(&alone), "{alone}");
+    }
+
+    #[test]
+    fn a_table_keeps_the_lamp_from_what_is_under_it() {
+        let table = sample::cuboid(Vec3::new(-9.0, -9.0, 5.0), Vec3::new(9.0, 9.0, 6.0));
+        let lattice = sample::rectangle(3, 3, 1.0);
+        let positions = flat(&lattice, 0.0);
+        let cloth = ClothMesh {
+            lattice: &lattice,
+            positions: &positions,
+        };
+        let stage = Stage::new(&cloth, &[table], None);
+        let at = |z| Vec3::new(0.0, 0.0, z);
+        assert_eq!(
+            [
+                stage.lamp_seen(at(1.0), Vec3::z()),
+                stage.lamp_seen(at(7.0), Vec3::z())
+            ],
+            [0.0, 1.0]
+        );
+        assert!(
+            stage.sky_seen(at(4.5), Vec3::z()) < 0.3 && stage.sky_seen(at(7.0), Vec3::z()) == 1.0
+        );
+    }
+
+    #[test]
+    fn the_camera_looks_at_the_near_part_of_a_large_body() {
+        let lattice = sample::rectangle(3, 3, 1.0);
+        let positions = flat(&lattice, 0.0);
+        let cloth = ClothMesh {
+            lattice: &lattice,
+            positions: &positions,
+        };
+        let hall = sample::cuboid(Vec3::repeat(-1000.0), Vec3::new(1000.0, 1000.0, -0.1));
+        let subject = Stage::new(&cloth, &[hall], None).subject();
+        assert!(subject.iter().all(|p| p.amax() < 5.0), "{subject:?}");
+    }
 }

@@ -21,8 +21,18 @@ impl Ray {
     /// A ray from a point in a direction of length 1.
     pub(super) fn new(origin: Vec3, direction: Vec3) -> Self {
         // Dividing by 0 would give 0 · ∞ on the face of a box.
-        let safe = |x: f64| if x.abs() < 1e-12 { 1e-12_f64.copysign(x) } else { x };
-        Self { origin, direction, inverse: direction.map(|x| 1.0 / safe(x)) }
+        let safe = |x: f64| {
+            if x.abs() < 1e-12 {
+                1e-12_f64.copysign(x)
+            } else {
+                x
+            }
+        };
+        Self {
+            origin,
+            direction,
+            inverse: direction.map(|x| 1.0 / safe(x)),
+        }
     }
 
     /// The point at a distance [cm].
@@ -69,6 +79,10 @@ pub(super) struct Surface {
     tree: Bvh,
 }
 
+/// How far beyond its sides a triangle still stops a ray, in sides, so that rounding opens no gap
+/// between neighbours.
+const EDGE: f64 = 1e-9;
+
 /// A corner and the two sides from it [cm].
 #[derive(Clone, Copy, Debug)]
 struct Triangle {
@@ -81,13 +95,24 @@ impl Surface {
     pub(super) fn new(shell: Shell) -> Self {
         let points = |corners: &[u32; 3]| {
             let [a, b, c] = corners.map(|corner| shell.vertices.get(corner as usize).copied());
-            let (a, b, c) = (a.unwrap_or_default(), b.unwrap_or_default(), c.unwrap_or_default());
-            Triangle { corner: a, sides: [b - a, c - a] }
+            let (a, b, c) = (
+                a.unwrap_or_default(),
+                b.unwrap_or_default(),
+                c.unwrap_or_default(),
+            );
+            Triangle {
+                corner: a,
+                sides: [b - a, c - a],
+            }
         };
         let triangles: Vec<Triangle> = shell.triangles.iter().map(points).collect();
         let boxes: Vec<Aabb> = triangles.iter().map(Triangle::bounds).collect();
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-        Self { shell, triangles, tree }
+        Self {
+            shell,
+            triangles,
+            tree,
+        }
     }
 
     /// The shell.
@@ -106,7 +131,12 @@ impl Surface {
         let corners = *self.shell.triangles.get(leaf as usize)?;
         let [ahead, back] = self.triangles.get(leaf as usize)?.sides;
         let normal = ahead.cross(&back).try_normalize(0.0)?;
-        Some(Hit { distance, corners, weights: [1.0 - v - w, v, w], normal })
+        Some(Hit {
+            distance,
+            corners,
+            weights: [1.0 - v - w, v, w],
+            normal,
+        })
     }
 
     /// Whether a ray meets anything within a distance [cm].
@@ -122,10 +152,17 @@ impl Surface {
 
     /// A vertex quantity between the corners of a hit.
     pub(super) fn normal(&self, hit: &Hit) -> Vec3 {
-        let normals = hit.corners.iter().zip(hit.weights).filter_map(|(corner, weight)| {
-            Some(*self.shell.normals.get(*corner as usize)? * weight)
-        });
-        normals.sum::<Vec3>().try_normalize(1e-9).unwrap_or(hit.normal)
+        let normals = hit
+            .corners
+            .iter()
+            .zip(hit.weights)
+            .filter_map(|(corner, weight)| {
+                Some(*self.shell.normals.get(*corner as usize)? * weight)
+            });
+        normals
+            .sum::<Vec3>()
+            .try_normalize(1e-9)
+            .unwrap_or(hit.normal)
     }
 }
 
@@ -152,7 +189,8 @@ impl Triangle {
         let turned = from.cross(&first);
         let w = ray.direction.dot(&turned) / volume;
         let distance = second.dot(&turned) / volume;
-        (v >= 0.0 && w >= 0.0 && v + w <= 1.0 && distance > 0.0).then_some([distance, v, w])
+        (v >= -EDGE && w >= -EDGE && v + w <= 1.0 + EDGE && distance > 0.0)
+            .then_some([distance, v, w])
     }
 }
 
@@ -189,7 +227,11 @@ mod tests {
         let vertices = vec![Vec3::zeros(), Vec3::x(), Vec3::x() + Vec3::y(), Vec3::y()];
         let normals = vec![Vec3::z(); 4];
         let triangles = vec![[0, 1, 2], [0, 2, 3]];
-        let floor = Surface::new(Shell { vertices, normals, triangles });
+        let floor = Surface::new(Shell {
+            vertices,
+            normals,
+            triangles,
+        });
         let ray = Ray::new(Vec3::new(0.5, 0.5, 1.0), -Vec3::z());
         assert_eq!(floor.hit(&ray, 9.0).map(|hit| hit.distance), Some(1.0));
         assert!(floor.hit(&ray, 0.5).is_none());
