@@ -8,3 +8,5 @@ pub mod forces;
 pub mod contact;
 pub mod certificate;
 pub mod solver;
+pub mod output;
+pub mod scene;

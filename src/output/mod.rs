@@ -1,0 +1,51 @@
+//! What a drape is handed on as: meshes for other programs (OBJ, GLB, PLY), a picture (PNG), heat
+//! maps with a legend in physical units, and the report (JSON).
+//!
+//! Everything is made in memory and returned; [`write`] alone touches files, and it replaces a
+//! file only by a whole one. Nothing here fails for a shape that is not at rest, not even for one
+//! whose positions are not finite: cells and bodies that cannot be drawn are left out.
+//! The same input gives the same bytes, whatever the number of threads.
+
+mod colour;
+mod glb;
+mod heat;
+mod obj;
+mod picture;
+mod ply;
+mod png;
+mod report;
+#[cfg(test)]
+mod sample;
+mod shell;
+mod weave;
+mod write;
+
+pub use glb::glb;
+pub use heat::{HeatMap, Map, UnknownMap};
+pub use obj::obj;
+pub use picture::{View, picture};
+pub use ply::ply;
+pub use report::{Run, report};
+pub use write::{WriteError, write};
+
+use crate::{lattice::Lattice, math::Vec3};
+
+/// A cloth in space.
+#[derive(Clone, Copy, Debug)]
+pub struct ClothMesh<'a> {
+    /// Its nodes, cells and cloth coordinates.
+    pub lattice: &'a Lattice,
+    /// Positions of the nodes [cm], in lattice order.
+    pub positions: &'a [Vec3],
+}
+
+/// The surface of a body in space.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BodyMesh {
+    /// What it is called.
+    pub name: String,
+    /// Points [cm].
+    pub vertices: Vec<Vec3>,
+    /// Corners of each face, counter-clockwise from outside.
+    pub triangles: Vec<[u32; 3]>,
+}
