@@ -164,7 +164,10 @@ fn pose(at: &At<'_>, body: &BodyTable) -> Result<Pose, SceneError> {
     let turns = body.rotate_deg.map_or([0.0; 3], |Numbers(turns)| turns);
     let [x, y, z] = at.key("rotate_deg").numbers(turns, &TURN)?;
     let turn = about(2, z) * about(1, y) * about(0, x);
-    Ok(Pose::from_parts(Translation3::from(Vec3::from(place)), turn))
+    Ok(Pose::from_parts(
+        Translation3::from(Vec3::from(place)),
+        turn,
+    ))
 }
 
 /// A turn about an axis of space [degrees]; libm, so that it has the same bits everywhere.
@@ -287,7 +290,8 @@ mod tests {
             rotate_deg: Some(Numbers(degrees)),
             ..empty()
         };
-        pose(&document.top(), &body).unwrap() * nalgebra::Point3::from(point) - nalgebra::Point3::origin()
+        pose(&document.top(), &body).unwrap() * nalgebra::Point3::from(point)
+            - nalgebra::Point3::origin()
     }
 
     fn empty() -> BodyTable {

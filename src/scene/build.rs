@@ -88,8 +88,14 @@ pub(super) fn placement(at: &At<'_>, cloth: &ClothTable) -> Result<Placement, Sc
     let x_axis = axis(&at.key("x_axis"), cloth.x_axis, Vec3::x())?;
     let y_axis = axis(&at.key("y_axis"), cloth.y_axis, Vec3::y())?;
     if x_axis.dot(&y_axis).abs() > 1e-6 {
-        let key = if cloth.y_axis.is_some() { "y_axis" } else { "x_axis" };
-        return Err(at.key(key).not_allowed("x_axis and y_axis at a right angle"));
+        let key = if cloth.y_axis.is_some() {
+            "y_axis"
+        } else {
+            "x_axis"
+        };
+        return Err(at
+            .key(key)
+            .not_allowed("x_axis and y_axis at a right angle"));
     }
     Ok(Placement {
         centre: at.key("centre_cm").numbers(centre, &PLACE)?.into(),
@@ -155,8 +161,18 @@ pub(super) fn contact(
         None => Ok(usual),
     };
     Ok((
-        checked("friction", table.friction, fabric.friction.body, Quantity::BodyFriction)?,
-        checked("thickness_cm", table.thickness_cm, fabric.thickness, Quantity::Thickness)?,
+        checked(
+            "friction",
+            table.friction,
+            fabric.friction.body,
+            Quantity::BodyFriction,
+        )?,
+        checked(
+            "thickness_cm",
+            table.thickness_cm,
+            fabric.thickness,
+            Quantity::Thickness,
+        )?,
     ))
 }
 
@@ -183,7 +199,9 @@ pub(super) fn laws(at: &At<'_>, table: &SolveTable) -> Result<Laws, SceneError> 
         shear: words.contains(&LawWord::Shear),
     };
     if words.is_empty() {
-        return Err(at.key("laws").not_allowed("one or more of \"tension\", \"bending\", \"shear\""));
+        return Err(at
+            .key("laws")
+            .not_allowed("one or more of \"tension\", \"bending\", \"shear\""));
     }
     Ok(laws)
 }

@@ -25,7 +25,11 @@ pub(super) fn fault(error: &toml::de::Error, document: &Document) -> Fault {
     }
     let (_, expected) = message.rsplit_once("expected ").unwrap_or(("", message));
     let allowed = if message.starts_with("unknown variant") {
-        let words: Vec<String> = names.iter().skip(1).map(|word| format!("{word:?}")).collect();
+        let words: Vec<String> = names
+            .iter()
+            .skip(1)
+            .map(|word| format!("{word:?}"))
+            .collect();
         words.join(", ")
     } else {
         in_words(expected, &steps)

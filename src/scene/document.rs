@@ -235,7 +235,10 @@ impl<'d> At<'d> {
     }
 
     /// The one key that is present among keys that exclude each other.
-    pub(super) fn exactly_one(&self, keys: &[(&'static str, bool)]) -> Result<&'static str, SceneError> {
+    pub(super) fn exactly_one(
+        &self,
+        keys: &[(&'static str, bool)],
+    ) -> Result<&'static str, SceneError> {
         let found: Vec<&str> = keys.iter().filter(|key| key.1).map(|key| key.0).collect();
         match found.as_slice() {
             [] => {

@@ -64,7 +64,7 @@ pub enum Fault {
         offset: usize,
     },
     /// No TOML.
-    #[error("{0}")]
+    #[error("not valid TOML: {0}")]
     Syntax(String),
     /// A key that means nothing.
     #[error("unknown key {key:?}{}{}", in_table(table), nearest_key(nearest.as_deref(), known))]
@@ -184,7 +184,10 @@ impl fmt::Display for SceneError {
         let number = line.to_string();
         let margin = number.len();
         writeln!(f, "  {number} | {text}")?;
-        let width = place.width.min(text.chars().count().saturating_sub(before)).max(1);
+        let width = place
+            .width
+            .min(text.chars().count().saturating_sub(before))
+            .max(1);
         write!(f, "  {:margin$} | {:before$}{}", "", "", "^".repeat(width))
     }
 }
@@ -204,15 +207,18 @@ impl Place {
         };
         let blank = |c: char| if c.is_control() { ' ' } else { c };
         let shown = self.text.chars().skip(skip).take(LONGEST).map(blank);
-        (shown.collect::<String>().trim_end().to_owned(), ahead - skip)
+        (
+            shown.collect::<String>().trim_end().to_owned(),
+            ahead - skip,
+        )
     }
 }
 
 fn in_table(table: &str) -> String {
-    if table.is_empty() {
-        String::new()
-    } else {
-        format!(" in [{table}]")
+    match table {
+        "" => String::new(),
+        _ if table.contains('[') => format!(" in {table}"),
+        _ => format!(" in [{table}]"),
     }
 }
 

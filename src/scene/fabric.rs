@@ -118,9 +118,9 @@ fn read(document: &Document) -> Result<Fabric, SceneError> {
         warp: direction(&top.key("warp"), &file.warp)?,
         weft: direction(&top.key("weft"), &file.weft)?,
     };
-    fabric
-        .checked()
-        .map_err(|InvalidFabric { quantity, .. }| place_of(&top, quantity).not_allowed(quantity.allowed()))
+    fabric.checked().map_err(|InvalidFabric { quantity, .. }| {
+        place_of(&top, quantity).not_allowed(quantity.allowed())
+    })
 }
 
 fn direction(at: &At<'_>, table: &DirectionTable) -> Result<Direction, SceneError> {
@@ -197,11 +197,36 @@ mod tests {
     #[test]
     fn the_five_fabrics_are_tables_1_and_2() {
         let rows = [
-            ("a", 0.0035, (4.0e4, 1.7, 0.0060, 1.0), (3.8e5, 2.3, 0.0060, 1.0)),
-            ("b", 0.0026, (1.8e3, 1.5, 0.0057, 0.0), (8.1e5, 2.5, 0.0025, 0.5)),
-            ("c", 0.014, (3.8e5, 1.8, 0.0089, 18.0), (3.1e4, 1.7, 0.0057, 6.0)),
-            ("d", 0.023, (2.7e4, 1.4, 0.18, 84.0), (5.6e3, 1.2, 0.13, 64.0)),
-            ("washi", 0.0050, (5.2e6, 1.9, 0.23, 4500.0), (2.4e8, 2.3, 0.66, 11000.0)),
+            (
+                "a",
+                0.0035,
+                (4.0e4, 1.7, 0.0060, 1.0),
+                (3.8e5, 2.3, 0.0060, 1.0),
+            ),
+            (
+                "b",
+                0.0026,
+                (1.8e3, 1.5, 0.0057, 0.0),
+                (8.1e5, 2.5, 0.0025, 0.5),
+            ),
+            (
+                "c",
+                0.014,
+                (3.8e5, 1.8, 0.0089, 18.0),
+                (3.1e4, 1.7, 0.0057, 6.0),
+            ),
+            (
+                "d",
+                0.023,
+                (2.7e4, 1.4, 0.18, 84.0),
+                (5.6e3, 1.2, 0.13, 64.0),
+            ),
+            (
+                "washi",
+                0.0050,
+                (5.2e6, 1.9, 0.23, 4500.0),
+                (2.4e8, 2.3, 0.66, 11000.0),
+            ),
         ];
         assert_eq!(rows.len(), SWATCHES.len());
         for (name, weight, warp, weft) in rows {

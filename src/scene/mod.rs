@@ -90,7 +90,9 @@ pub fn read(path: &Path) -> Result<Scene, SceneError> {
     };
     let name = path.file_stem().unwrap_or_default();
     Ok(Scene {
-        title: file.title.unwrap_or_else(|| name.to_string_lossy().into_owned()),
+        title: file
+            .title
+            .unwrap_or_else(|| name.to_string_lossy().into_owned()),
         fabric: file.cloth.fabric,
         fabric_file,
         problem,

@@ -77,7 +77,8 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 fn map(word: &str) -> Result<Map, String> {
-    word.parse().map_err(|error: soen::output::UnknownMap| error.to_string())
+    word.parse()
+        .map_err(|error: soen::output::UnknownMap| error.to_string())
 }
 
 #[cfg(test)]

@@ -32,11 +32,20 @@ fn understood(scene: &Scene, nodes: usize) -> String {
     let fabric = &problem.fabric;
     line("title", scene.title.clone());
     let file = scene.fabric_file.display();
-    line("fabric", format!("{} ({}; {file})", fabric.name, fabric.source));
+    line(
+        "fabric",
+        format!("{} ({}; {file})", fabric.name, fabric.source),
+    );
     line("", format!("{} gf/cm²", fabric.weight));
     line("cloth", cloth(&problem.piece.outline));
     let degrees = problem.piece.grain.to_degrees();
-    line("", format!("grain {degrees}°, spacing {} cm, {nodes} nodes", problem.piece.pitch));
+    line(
+        "",
+        format!(
+            "grain {degrees}°, spacing {} cm, {nodes} nodes",
+            problem.piece.pitch
+        ),
+    );
     let [x, y, z]: [f64; 3] = problem.placement.centre.into();
     line("", format!("starts flat about ({x}, {y}, {z}) cm"));
     for each in &problem.holds {
@@ -52,7 +61,13 @@ fn understood(scene: &Scene, nodes: usize) -> String {
     for mesh in &scene.meshes {
         line("mesh", inspected(mesh));
     }
-    line("contact", format!("friction {}, thickness {} cm", problem.friction, problem.thickness));
+    line(
+        "contact",
+        format!(
+            "friction {}, thickness {} cm",
+            problem.friction, problem.thickness
+        ),
+    );
     line("solve", solve(scene));
     text
 }

@@ -8,7 +8,7 @@ use crate::{
 };
 use soen::{
     math::Vec3,
-    output::{self, BodyMesh, ClothMesh, HeatMap, Run},
+    output::{self, BodyMesh, ClothMesh, HeatMap, Map, Run},
     scene::{self, Scene},
     solver::{self, Settings, Settled},
 };
@@ -43,7 +43,11 @@ pub(crate) fn drape(wish: &Wish) -> Result<ExitCode, Failure> {
     } else {
         certificate(&settled, &run, &wish.out)
     })?;
-    Ok(if settled.converged { DONE } else { uncertified() })
+    Ok(if settled.converged {
+        DONE
+    } else {
+        uncertified()
+    })
 }
 
 /// Finds out before the long work whether its result can be kept.
@@ -68,7 +72,9 @@ fn set_threads(wished: Option<u16>) -> Result<usize, Failure> {
 fn set_threads(wished: Option<u16>) -> Result<usize, Failure> {
     match wished {
         None | Some(1) => Ok(1),
-        Some(_) => Err(Failure::Input("built without threads; allowed: --threads 1".into())),
+        Some(_) => Err(Failure::Input(
+            "built without threads; allowed: --threads 1".into(),
+        )),
     }
 }
 
@@ -85,7 +91,12 @@ fn stopped_by_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
     Ok(stop)
 }
 
-fn settle(wish: &Wish, scene: &Scene, begin: Instant, stop: &AtomicBool) -> Result<Settled, Failure> {
+fn settle(
+    wish: &Wish,
+    scene: &Scene,
+    begin: Instant,
+    stop: &AtomicBool,
+) -> Result<Settled, Failure> {
     let limit = wish.max_seconds.unwrap_or(scene.max_seconds);
     let settings = Settings {
         frames: wish.frames.into(),
@@ -124,13 +135,16 @@ fn write(wish: &Wish, scene: &Scene, settled: &Settled, report: &str) -> Result<
         put("drape.ply", &output::ply(&cloth, &maps))?;
     }
     for (number, positions) in (1..).zip(&settled.frames) {
-        let cloth = ClothMesh {
-            positions,
-            ..cloth
-        };
+        let cloth = ClothMesh { positions, ..cloth };
         let title = format!("{title}, frame {number}");
-        put(&format!("frame-{number:04}.obj"), output::obj(&title, &cloth).as_bytes())?;
-        put(&format!("frame-{number:04}.png"), &output::picture(&cloth, &bodies, None))?;
+        put(
+            &format!("frame-{number:04}.obj"),
+            output::obj(&title, &cloth).as_bytes(),
+        )?;
+        put(
+            &format!("frame-{number:04}.png"),
+            &output::picture(&cloth, &bodies, None),
+        )?;
     }
     // Last, so that a report beside the files says that all of them are there.
     put("report.json", report.as_bytes())?;
@@ -151,15 +165,22 @@ fn body_meshes(scene: &Scene) -> Vec<BodyMesh> {
 }
 
 fn heat_maps(wish: &Wish, scene: &Scene, settled: &Settled, cloth: &ClothMesh<'_>) -> Vec<HeatMap> {
-    // Farther than any cloth is from its body.
+    let gaps = wish.maps.contains(&Map::Gap).then(|| gaps(scene, cloth));
+    let of = |map| HeatMap::of(map, cloth, Some(&settled.contact), gaps.as_deref());
+    wish.maps.iter().copied().filter_map(of).collect()
+}
+
+/// Distance of each node to the nearest body [cm].
+fn gaps(scene: &Scene, cloth: &ClothMesh<'_>) -> Vec<f64> {
+    // Farther than any cloth is from its body [cm].
     const REACH: f64 = 1e3;
     let gap = |at: &Vec3| {
         let near = scene.problem.bodies.near(at, REACH);
-        near.iter().map(|near| near.distance).fold(f64::NAN, f64::min)
+        near.iter()
+            .map(|near| near.distance)
+            .fold(f64::NAN, f64::min)
     };
-    let gaps: Vec<f64> = cloth.positions.iter().map(gap).collect();
-    let of = |map| HeatMap::of(map, cloth, Some(&settled.contact), Some(&gaps));
-    wish.maps.iter().copied().filter_map(of).collect()
+    cloth.positions.iter().map(gap).collect()
 }
 
 /// The certificate as a short table.
