@@ -1,6 +1,13 @@
-//! One convex, round or meshed piece of a body.
+//! One round, flat-sided or meshed piece of a body: a parry shape with a pose.
 
-use crate::{body::Mesh, math::Vec3};
+use crate::{
+    body::{Mesh, MeshError},
+    math::{Pose, Vec3},
+};
+use parry3d::{
+    math::{Pose as ParryPose, Vector},
+    shape::{SharedShape, TriMeshFlags},
+};
 
 /// A shape in its own frame [cm].
 #[derive(Clone, Debug, PartialEq)]
@@ -43,4 +50,186 @@ pub enum Shape {
     },
     /// A triangle mesh: solid where it is closed, a two-sided sheet where it is not.
     Mesh(Mesh),
+}
+
+/// Whether a part has an inside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Nature {
+    /// Closed: what is inside is pushed out.
+    Solid,
+    /// Open: cloth stays on the side where it is.
+    Sheet,
+}
+
+/// A shape that cannot be built.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PartError {
+    /// A length is out of range.
+    #[error("{quantity} is {value} cm; allowed: 0.01 to 10000 cm")]
+    Length {
+        /// Which length.
+        quantity: &'static str,
+        /// Its value [cm].
+        value: f64,
+    },
+    /// Points that enclose nothing.
+    #[error("the convex hull of {0} points has no volume: give at least 4 points, not in one plane")]
+    FlatHull(usize),
+    /// The mesh is unusable.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The mesh cannot be searched.
+    #[error("the mesh cannot be searched: {0}")]
+    Unsearchable(String),
+}
+
+/// A part of a body, in place.
+#[derive(Clone)]
+pub struct Part {
+    name: String,
+    nature: Nature,
+    shape: SharedShape,
+    pose: ParryPose,
+    centre: Vec3,
+}
+
+impl core::fmt::Debug for Part {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Part").field("name", &self.name).field("nature", &self.nature).finish()
+    }
+}
+
+impl Part {
+    /// Builds a part.
+    ///
+    /// # Errors
+    /// [`PartError`] where a length is out of range, a hull is flat or a mesh cannot be searched.
+    pub fn new(name: String, shape: &Shape, pose: Pose) -> Result<Self, PartError> {
+        let pose = ParryPose::from(pose) * own_turn(shape);
+        let (shape, nature) = parry_shape(shape)?;
+        let centre = shape.compute_aabb(&pose).center().into();
+        Ok(Self { name, nature, shape, pose, centre })
+    }
+
+    /// Its name in the scene.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether it has an inside.
+    #[must_use]
+    pub fn nature(&self) -> Nature {
+        self.nature
+    }
+
+    /// The parry shape in its own frame.
+    pub(super) fn shape(&self) -> &SharedShape {
+        &self.shape
+    }
+
+    /// Its pose, in parry's terms.
+    pub(super) fn pose(&self) -> &ParryPose {
+        &self.pose
+    }
+
+    /// The middle of its bounding box [cm].
+    pub(super) fn centre(&self) -> Vec3 {
+        self.centre
+    }
+
+    /// Its surface as triangles in space [cm], for pictures and files; round shapes are divided
+    /// finely.
+    #[must_use]
+    pub fn triangles(&self) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+        let (points, triangles) = surface(&self.shape);
+        (points.into_iter().map(|point| (self.pose * point).into()).collect(), triangles)
+    }
+}
+
+fn parry_shape(shape: &Shape) -> Result<(SharedShape, Nature), PartError> {
+    let built = match shape {
+        Shape::Ball { radius } => SharedShape::ball(length("radius", *radius)?),
+        Shape::Capsule { radius, length: axis } => {
+            SharedShape::capsule_z(0.5 * length("length", *axis)?, length("radius", *radius)?)
+        }
+        Shape::Cuboid { size } => {
+            let half = |axis: usize| Ok::<f64, PartError>(0.5 * length("size", size[axis])?);
+            SharedShape::cuboid(half(0)?, half(1)?, half(2)?)
+        }
+        Shape::Cylinder { radius, height } => {
+            SharedShape::cylinder(0.5 * length("height", *height)?, length("radius", *radius)?)
+        }
+        Shape::Cone { radius, height } => {
+            SharedShape::cone(0.5 * length("height", *height)?, length("radius", *radius)?)
+        }
+        Shape::ConvexHull { points } => hull(points)?,
+        Shape::Mesh(mesh) => return meshed(mesh),
+    };
+    Ok((built, Nature::Solid))
+}
+
+fn length(quantity: &'static str, value: f64) -> Result<f64, PartError> {
+    if (0.01..=1e4).contains(&value) { Ok(value) } else { Err(PartError::Length { quantity, value }) }
+}
+
+/// parry's cylinders and cones stand along y; ours along z.
+fn own_turn(shape: &Shape) -> ParryPose {
+    match shape {
+        Shape::Cylinder { .. } | Shape::Cone { .. } => {
+            ParryPose::rotation(Vector::new(core::f64::consts::FRAC_PI_2, 0.0, 0.0))
+        }
+        _ => ParryPose::IDENTITY,
+    }
+}
+
+/// A hull as a mesh: parry searches a mesh some ten times faster than a polyhedron.
+fn hull(points: &[Vec3]) -> Result<SharedShape, PartError> {
+    let flat = || PartError::FlatHull(points.len());
+    let points: Vec<Vector> = points.iter().map(|point| Vector::from(*point)).collect();
+    let hull = SharedShape::convex_hull(&points).ok_or_else(flat)?;
+    let polyhedron = hull.as_convex_polyhedron().ok_or_else(flat)?;
+    let (vertices, triangles) = polyhedron.to_trimesh();
+    trimesh(vertices, triangles, TriMeshFlags::ORIENTED)
+}
+
+fn meshed(mesh: &Mesh) -> Result<(SharedShape, Nature), PartError> {
+    let closed = mesh.inspection().closed;
+    let flags = if closed { TriMeshFlags::ORIENTED } else { TriMeshFlags::empty() };
+    let vertices = mesh.vertices().iter().map(|vertex| Vector::from(*vertex)).collect();
+    let shape = trimesh(vertices, mesh.triangles().to_vec(), flags)?;
+    Ok((shape, if closed { Nature::Solid } else { Nature::Sheet }))
+}
+
+fn trimesh(
+    vertices: Vec<Vector>,
+    triangles: Vec<[u32; 3]>,
+    flags: TriMeshFlags,
+) -> Result<SharedShape, PartError> {
+    SharedShape::trimesh_with_flags(vertices, triangles, flags)
+        .map_err(|error| PartError::Unsearchable(error.to_string()))
+}
+
+/// A shape's surface as triangles in its own frame.
+fn surface(shape: &SharedShape) -> (Vec<Vector>, Vec<[u32; 3]>) {
+    if let Some(mesh) = shape.as_trimesh() {
+        return (mesh.vertices().to_vec(), mesh.indices().to_vec());
+    }
+    if let Some(ball) = shape.as_ball() {
+        return ball.to_trimesh(64, 32);
+    }
+    if let Some(capsule) = shape.as_capsule() {
+        return capsule.to_trimesh(64, 16);
+    }
+    if let Some(cuboid) = shape.as_cuboid() {
+        return cuboid.to_trimesh();
+    }
+    if let Some(cylinder) = shape.as_cylinder() {
+        return cylinder.to_trimesh(96);
+    }
+    if let Some(cone) = shape.as_cone() {
+        return cone.to_trimesh(96);
+    }
+    (Vec::new(), Vec::new())
 }

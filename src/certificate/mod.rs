@@ -1,6 +1,22 @@
-//! The proof that a shape is at rest (design §6), recomputed from the final positions alone.
+//! The proof that a shape is at rest (design §6), recomputed from the final positions alone: it
+//! shares no sum, list or derivative with the solver.
 
-use crate::math::Vec3;
+mod loads;
+mod reaction;
+mod shape;
+
+pub use shape::{DrapeShape, drape_shape};
+
+use crate::{
+    body::Bodies,
+    contact::Surface,
+    fabric::Fabric,
+    forces::{Clamp, Laws},
+    lattice::Lattice,
+    math::Vec3,
+    threads,
+};
+use loads::{Load, Loads};
 
 /// How far from rest a shape is. "Converged" means that all of it holds at the tolerance.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,21 +40,151 @@ pub struct Certificate {
     pub deepest: f64,
 }
 
-/// Figures of a drape that people compare.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DrapeShape {
-    /// Lowest point [cm].
-    pub lowest: f64,
-    /// Highest point [cm].
-    pub highest: f64,
-    /// Mean height, by area [cm].
-    pub mean_height: f64,
-    /// Energy of cloth and weight [gf·cm].
-    pub energy: f64,
-    /// Greatest strain of a warp rod [-].
-    pub strain_warp_max: f64,
-    /// Greatest strain of a weft rod [-].
-    pub strain_weft_max: f64,
-    /// Greatest shear angle [rad].
-    pub shear_max: f64,
+/// What a shape is judged against.
+#[derive(Clone, Copy, Debug)]
+pub struct Case<'a> {
+    /// The lattice.
+    pub lattice: &'a Lattice,
+    /// Its material.
+    pub fabric: &'a Fabric,
+    /// The laws that act.
+    pub laws: Laws,
+    /// Whether bends and corners act on their own node only (figures 7–9).
+    pub own_only: bool,
+    /// Vices.
+    pub clamps: &'a [Clamp],
+    /// Which nodes are held.
+    pub held: &'a [bool],
+    /// The bodies.
+    pub bodies: &'a Bodies,
+    /// Friction and standoff.
+    pub surface: Surface,
+}
+
+/// Deeper than this [cm] no point of a certified cloth is inside a body.
+pub const DEEPEST_ALLOWED: f64 = 0.05;
+/// A certified cloth has no farther to go than this [cm].
+pub const FARTHEST_ALLOWED: f64 = 0.05;
+/// Normals nearer than this to each other are one.
+const SAME_NORMAL: f64 = 1.0 - 1e-9;
+
+impl Certificate {
+    /// Whether the shape is at rest at a tolerance on the residual.
+    #[must_use]
+    pub fn holds(&self, tolerance: f64) -> bool {
+        self.residual_max <= tolerance
+            && self.pulled == 0
+            && self.outside_cone == 0
+            && self.deepest <= DEEPEST_ALLOWED
+            && self.remaining_move <= FARTHEST_ALLOWED
+    }
+}
+
+/// Judges positions; `remaining_move` [cm] is the solver's estimate, from how its steps contract.
+#[must_use]
+pub fn certify(case: &Case<'_>, at: &[Vec3], tolerance: f64, remaining_move: f64) -> Certificate {
+    let loads = case.loads().at(at);
+    let touching = case.normals(at);
+    let residuals = threads::map(at.len(), |node| case.residual(node, &loads[node], &touching[node]));
+    let worst = (0..at.len()).fold(0, |worst, node| {
+        if residuals[node] > residuals[worst] { node } else { worst }
+    });
+    let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
+    let failing = |node: &usize| residuals[*node] > tolerance && !touching[*node].is_empty();
+    let pulled = |node: &usize| touching[*node].iter().all(|normal| loads[*node].net.dot(normal) > 0.0);
+    let failing: Vec<usize> = (0..at.len()).filter(failing).collect();
+    let pulled = failing.iter().filter(|node| pulled(node)).count();
+    Certificate {
+        residual_max: residuals.get(worst).copied().unwrap_or(0.0),
+        residual_rms: (squares / at.len().max(1) as f64).sqrt(),
+        worst_node: at.get(worst).copied().unwrap_or_default(),
+        remaining_move,
+        touching: touching.iter().filter(|normals| !normals.is_empty()).count(),
+        pulled,
+        outside_cone: failing.len() - pulled,
+        deepest: deepest(case.lattice, case.bodies, at),
+    }
+}
+
+/// The greatest residual alone, for a solver that wants to know whether to go on [-].
+#[must_use]
+pub fn greatest_residual(case: &Case<'_>, at: &[Vec3]) -> f64 {
+    let loads = case.loads().at(at);
+    let touching = case.normals(at);
+    threads::map(at.len(), |node| case.residual(node, &loads[node], &touching[node]))
+        .into_iter()
+        .fold(0.0, f64::max)
+}
+
+impl Case<'_> {
+    fn loads(&self) -> Loads<'_> {
+        Loads {
+            lattice: self.lattice,
+            fabric: self.fabric,
+            laws: self.laws,
+            clamps: self.clamps,
+            own_only: self.own_only,
+        }
+    }
+
+    /// The normals of what each node touches: itself, or by the cells around it.
+    fn normals(&self, at: &[Vec3]) -> Vec<Vec<Vec3>> {
+        let reach = self.surface.node_reach() + 1e-9;
+        let near = |point: &Vec3, reach: f64| -> Vec<Vec3> {
+            self.bodies.near(point, reach).into_iter().map(|near| near.normal).collect()
+        };
+        let mut normals = threads::map(at.len(), |node| near(&at[node], reach));
+        let reach = self.surface.sample_reach() + 1e-9;
+        let of_cells = threads::map(self.lattice.cells.len(), |cell| {
+            let corners = self.lattice.cells[cell].map(|node| at[node as usize]);
+            let mut found = Vec::new();
+            for (u, v) in samples(|k| (k as f64 + 0.5) / 4.0) {
+                found.append(&mut near(&blend(&corners, u, v), reach));
+            }
+            found
+        });
+        for (cell, found) in self.lattice.cells.iter().zip(of_cells) {
+            for node in cell {
+                let known = &mut normals[*node as usize];
+                for normal in &found {
+                    if !known.iter().any(|other| other.dot(normal) > SAME_NORMAL) {
+                        known.push(*normal);
+                    }
+                }
+            }
+        }
+        normals
+    }
+
+    /// A node's residual [-].
+    fn residual(&self, node: usize, load: &Load, normals: &[Vec3]) -> f64 {
+        if self.held[node] {
+            return 0.0;
+        }
+        let left = reaction::left_over(&load.net, normals, self.surface.friction);
+        left.norm() / load.sum
+    }
+}
+
+/// The deepest of 16 points a cell inside any body [cm]: a grid that takes in the cell's edges.
+fn deepest(lattice: &Lattice, bodies: &Bodies, at: &[Vec3]) -> f64 {
+    if bodies.parts().is_empty() {
+        return 0.0;
+    }
+    let of_cell = |cell: usize| {
+        let corners = lattice.cells[cell].map(|node| at[node as usize]);
+        let points = samples(|k| k as f64 / 3.0).map(|(u, v)| blend(&corners, u, v));
+        points.map(|point| bodies.depth(&point)).fold(0.0, f64::max)
+    };
+    threads::map(lattice.cells.len(), of_cell).into_iter().fold(0.0, f64::max)
+}
+
+/// A grid of 4 × 4 places in a cell.
+fn samples(place: impl Fn(usize) -> f64) -> impl Iterator<Item = (f64, f64)> {
+    (0..16).map(move |k| (place(k % 4), place(k / 4)))
+}
+
+fn blend(corners: &[Vec3; 4], u: f64, v: f64) -> Vec3 {
+    (corners[0] * (1.0 - u) + corners[1] * u) * (1.0 - v)
+        + (corners[3] * (1.0 - u) + corners[2] * u) * v
 }

@@ -5,10 +5,20 @@
 //! *Outline coordinates* are the (x, y) the outline was drawn in, from the same centre; the warp
 //! direction stands at the grain angle to their x axis.
 
+mod colours;
+mod connected;
 mod cut;
+mod edge;
+mod grain;
+mod grid;
+mod locate;
 mod outline;
+mod ring;
+mod seat;
+mod weave;
 
 pub use cut::CutError;
+pub use locate::{Locator, Place};
 pub use outline::{Edge, Outline, OutlineError};
 
 use crate::{fabric::Yarn, math::Vec2};
@@ -65,6 +75,9 @@ pub struct Corner {
 
 /// A mesh of the lattice: four nodes counter-clockwise in cloth coordinates,
 /// (0, 0), (1, 0), (1, 1), (0, 1) in steps of (warp, weft).
+///
+/// Where the outline cuts one of them off, a triangle is left: the missing node's place repeats the
+/// node before it (the first one's, the last).
 pub type Cell = [u32; 4];
 
 /// A piece divided into nodes. Every list is in lattice order: rows along the weft, within a row

@@ -1,10 +1,21 @@
 //! Finds rest: node by node to each node's own equilibrium (paper C-ii), until the whole is at rest.
 
+mod dense;
+mod descent;
+mod dissection;
+mod factor;
+mod joint;
+mod level;
+mod start;
+mod stiffness;
+mod sweep;
+
 use crate::{
     body::Bodies,
     certificate::{Certificate, DrapeShape},
     fabric::Fabric,
-    lattice::{Edge, Lattice, Piece},
+    forces::Laws,
+    lattice::{CutError, Edge, Lattice, Piece},
     math::{Vec2, Vec3},
 };
 
@@ -37,17 +48,6 @@ pub struct Hold {
     pub clamp: bool,
     /// Where it is carried before the rest is found [cm].
     pub carry: Vec3,
-}
-
-/// Which laws act; weight always does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Laws {
-    /// Rods pull (5).
-    pub tension: bool,
-    /// Opposite rods bend (6).
-    pub bending: bool,
-    /// Corners shear (7).
-    pub shear: bool,
 }
 
 /// How a node's forces are counted.
@@ -148,7 +148,7 @@ pub struct Settled {
 pub enum Unsolvable {
     /// The cloth could not be cut.
     #[error(transparent)]
-    Cut(#[from] crate::lattice::CutError),
+    Cut(#[from] CutError),
     /// A hold takes nothing.
     #[error("hold {index} is at ({x}, {y}) cm, outside the cloth")]
     HoldOutside {
@@ -189,6 +189,5 @@ pub fn settle(
     settings: &Settings,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Settled, Unsolvable> {
-    let _ = (problem, settings, watch);
-    Err(Unsolvable::Falls)
+    descent::descend(problem, settings, watch)
 }

@@ -1,0 +1,189 @@
+//! Where a point stands to the bodies: nearest surfaces, and the way that is free.
+
+use super::{Nature, Part};
+use crate::math::Vec3;
+use parry3d::{
+    bounding_volume::Aabb,
+    math::Vector,
+    partitioning::{Bvh, BvhBuildStrategy},
+    query::{PointQuery, Ray, RayCast},
+};
+
+/// A surface near a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Near {
+    /// Which part.
+    pub part: usize,
+    /// Distance to its surface [cm]; negative inside a solid.
+    pub distance: f64,
+    /// Direction out of the surface at the nearest point, of length 1.
+    pub normal: Vec3,
+}
+
+/// All parts of all bodies, with a tree over their boxes, so that the cost of a question depends
+/// little on their number.
+#[derive(Clone, Debug)]
+pub struct Bodies {
+    parts: Vec<Part>,
+    boxes: Vec<Aabb>,
+    tree: Bvh,
+}
+
+/// Nearer than this [cm], the direction to the surface is made of rounding errors.
+const ON_THE_SURFACE: f64 = 1e-9;
+/// A move may end this deep in a solid [cm]; its reaction then brings the point back.
+const SHALLOW: f64 = 0.04;
+/// How deep inside a solid [cm] a point is still brought back.
+const DEEP: f64 = 3.0;
+
+impl Default for Bodies {
+    fn default() -> Self {
+        Self::new(Vec::new())
+    }
+}
+
+impl Bodies {
+    /// Gathers parts.
+    #[must_use]
+    pub fn new(parts: Vec<Part>) -> Self {
+        let boxes: Vec<Aabb> =
+            parts.iter().map(|part| part.shape().compute_aabb(part.pose())).collect();
+        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        Self { parts, boxes, tree }
+    }
+
+    /// The parts, in the scene's order.
+    #[must_use]
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The box around all parts: its least and greatest corner [cm]; `None` without parts.
+    #[must_use]
+    pub fn extent(&self) -> Option<(Vec3, Vec3)> {
+        let (first, rest) = self.boxes.split_first()?;
+        let whole = rest.iter().fold(*first, |whole, part| {
+            Aabb::new(whole.mins.min(part.mins), whole.maxs.max(part.maxs))
+        });
+        Some((whole.mins.into(), whole.maxs.into()))
+    }
+
+    /// Every surface within `reach` [cm] of a point, and every solid it is inside of, by part.
+    #[must_use]
+    pub fn near(&self, point: &Vec3, reach: f64) -> Vec<Near> {
+        let centre = Vector::from(*point);
+        let around = Aabb::new(centre - Vector::splat(reach), centre + Vector::splat(reach));
+        let mut found: Vec<Near> = self
+            .in_box(&around)
+            .into_iter()
+            .filter_map(|part| nearest(&self.parts[part], part, point, reach, reach.max(DEEP)))
+            .collect();
+        found.sort_by_key(|near| near.part);
+        found
+    }
+
+    /// Depth of a point in the solids [cm]: positive inside, 0 outside.
+    #[must_use]
+    pub fn depth(&self, point: &Vec3) -> f64 {
+        let centre = Vector::from(*point);
+        let inside = |part| nearest(&self.parts[part], part, point, 0.0, f64::MAX);
+        let inside = self.in_box(&Aabb::new(centre, centre)).into_iter().filter_map(inside);
+        inside.map(|near| -near.distance).fold(0.0, f64::max)
+    }
+
+    /// The fraction of a straight move that passes through no surface, 1 where all of it is free.
+    #[must_use]
+    pub fn free_way(&self, from: &Vec3, to: &Vec3) -> f64 {
+        let (start, end) = (Vector::from(*from), Vector::from(*to));
+        let around = Aabb::new(start.min(end), start.max(end));
+        let hit = |part: usize| self.hit(part, from, to);
+        self.in_box(&around).into_iter().map(hit).fold(1.0, f64::min)
+    }
+
+    /// How far a point can fall before it meets a surface [cm].
+    #[must_use]
+    pub fn fall(&self, from: &Vec3) -> Option<f64> {
+        let (low, high) = self.extent()?;
+        if from.x < low.x || from.x > high.x || from.y < low.y || from.y > high.y {
+            return None;
+        }
+        let below = Vec3::new(from.x, from.y, low.z.min(from.z) - 1.0);
+        let (start, end) = (Vector::from(*from), Vector::from(below));
+        let around = Aabb::new(start.min(end), start.max(end));
+        let ray = Ray::new(start, end - start);
+        let cast = |part: usize| {
+            let part = &self.parts[part];
+            part.shape().cast_ray(part.pose(), &ray, 1.0, true)
+        };
+        let first = self.in_box(&around).into_iter().filter_map(cast).reduce(f64::min)?;
+        Some(first * (from.z - below.z))
+    }
+
+    /// Parts whose boxes meet a box, in rising order.
+    fn in_box(&self, around: &Aabb) -> Vec<usize> {
+        if self.parts.len() < 4 {
+            let meets = |part: &usize| {
+                let own = &self.boxes[*part];
+                own.mins.cmple(around.maxs).all() && own.maxs.cmpge(around.mins).all()
+            };
+            return (0..self.parts.len()).filter(meets).collect();
+        }
+        let mut found: Vec<usize> =
+            self.tree.intersect_aabb(around).map(|leaf| leaf as usize).collect();
+        found.sort_unstable();
+        found
+    }
+
+    /// The fraction of a move at which it passes into a part, 1 where it does not.
+    fn hit(&self, part: usize, from: &Vec3, to: &Vec3) -> f64 {
+        let (index, part) = (part, &self.parts[part]);
+        let ray = Ray::new((*from).into(), (to - from).into());
+        let Some(hit) = part.shape().cast_ray_and_get_normal(part.pose(), &ray, 1.0, true) else {
+            return 1.0;
+        };
+        if part.nature() == Nature::Solid {
+            // Started inside: its reaction will bring it out.
+            if hit.time_of_impact <= 0.0 {
+                return 1.0;
+            }
+            let normal = Vec3::from(hit.normal);
+            let shallow = |near: Near| near.distance > -SHALLOW && near.normal.dot(&normal) > 0.5;
+            if nearest(part, index, to, 0.0, DEEP).is_none_or(shallow) && part_holds_end(part, to) {
+                return 1.0;
+            }
+        }
+        hit.time_of_impact
+    }
+}
+
+/// Whether a move that passes into a solid also ends in it, instead of beyond it.
+fn part_holds_end(part: &Part, to: &Vec3) -> bool {
+    part.shape().contains_point(part.pose(), (*to).into())
+}
+
+/// The nearest point of one part's surface, if within `reach` or if the point is inside, by no more
+/// than `search`.
+fn nearest(part: &Part, index: usize, point: &Vec3, reach: f64, search: f64) -> Option<Near> {
+    let (shape, pose) = (part.shape(), part.pose());
+    if let Some(ball) = shape.as_ball() {
+        // In closed form: parry's answer at the very centre is not a number.
+        let out = *point - Vec3::from(pose.translation);
+        let distance = out.norm() - ball.radius;
+        let normal = out.try_normalize(ON_THE_SURFACE).unwrap_or_else(Vec3::z);
+        return (distance <= reach).then_some(Near { part: index, distance, normal });
+    }
+    let found = shape.project_point_with_max_dist(pose, Vector::from(*point), false, search)?;
+    let inside = part.nature() == Nature::Solid && found.is_inside;
+    let away = *point - Vec3::from(found.point);
+    let size = away.norm();
+    if !(size <= reach || inside) {
+        return None;
+    }
+    let normal = if size > ON_THE_SURFACE {
+        away * (if inside { -1.0 } else { 1.0 } / size)
+    } else {
+        let out = *point - part.centre();
+        out.try_normalize(ON_THE_SURFACE).unwrap_or_else(Vec3::z)
+    };
+    Some(Near { part: index, distance: if inside { -size } else { size }, normal })
+}

@@ -1,0 +1,127 @@
+//! The joint step: system (8) written for all nodes at once, so that a move of the whole cloth
+//! that each node alone would take thousands of sweeps to feel is made in one.
+//!
+//! 1. The derivative of all forces by all positions is assembled exactly, with λ times each node's
+//!    weight on the diagonal.
+//! 2. λ is the least that leaves it positive definite and keeps the energy falling; it goes to 0
+//!    as rest comes near, where steps converge quadratically.
+//! 3. The step is cut to a part of the pitch, and each node to the way that bodies leave free.
+//! 4. It is halved until the energy falls.
+
+use super::{factor::{Factor, Plan}, level::Level, stiffness::Stiffness};
+use crate::math::{Mat3, Vec3};
+
+/// A node moves at most this part of a pitch in a joint step.
+const LONGEST_MOVE: f64 = 0.8;
+
+/// The matrix and how far it is shifted from the exact one.
+#[derive(Debug)]
+pub(super) struct Joint {
+    pub(super) plan: Plan,
+    pub(super) stiffness: Stiffness,
+    /// λ: stiffness per weight [1/cm].
+    pub(super) shift: f64,
+}
+
+/// What a joint step came to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step {
+    /// Longest move that the system asked for [cm].
+    pub(super) asked: f64,
+    /// Longest move made [cm].
+    pub(super) made: f64,
+    /// Whether the unshifted, exact matrix was positive definite: the shape is stable.
+    pub(super) exact: bool,
+}
+
+impl Joint {
+    pub(super) fn new(level: &Level<'_>) -> Self {
+        let (plan, stiffness) = level.plan();
+        Self { plan, stiffness, shift: 4.0 / level.lattice.pitch }
+    }
+
+    /// Assembles the matrix at the level's positions.
+    fn assemble(&mut self, level: &Level<'_>, positive: bool) {
+        let matrix = &mut self.stiffness;
+        matrix.clear();
+        level.sheet.stiffness(&level.at, positive, &mut |row, column, block| {
+            matrix.add(row, column, block);
+        });
+        level.touches.stiffness(&level.at, &mut |row, column, block| matrix.add(row, column, block));
+        for (node, weight) in level.sheet.weights().iter().enumerate() {
+            let block = Mat3::identity() * (weight * self.shift);
+            matrix.add(node as u32, node as u32, &block);
+        }
+    }
+
+    /// The moves that the shifted system asks for [cm], and whether it is the exact one.
+    fn moves(&mut self, level: &Level<'_>, forces: &[Vec3]) -> Option<(Vec<Vec3>, bool)> {
+        let least = LEAST_SHIFT / level.lattice.pitch;
+        if self.shift < least {
+            self.shift = 0.0;
+        }
+        for _ in 0..3 {
+            self.assemble(level, false);
+            if let Some(factor) = Factor::new(&self.plan, &self.stiffness) {
+                return Some((factor.solve(forces), self.shift == 0.0));
+            }
+            self.shift = (self.shift * 6.0).max(least);
+        }
+        self.assemble(level, true);
+        let factor = Factor::new(&self.plan, &self.stiffness)?;
+        Some((factor.solve(forces), false))
+    }
+
+    /// One step; the level has just looked at its touches.
+    pub(super) fn step(&mut self, level: &mut Level<'_>) -> Option<Step> {
+        let forces = level.forces(&level.at);
+        let (moves, exact) = self.moves(level, &forces)?;
+        level.joint_steps += 1;
+        let asked = longest(&moves);
+        if !asked.is_finite() {
+            self.shift = self.shift.max(1.0) * 10.0;
+            return Some(Step { asked: f64::INFINITY, made: 0.0, exact: false });
+        }
+        let cap = (LONGEST_MOVE * level.lattice.pitch / asked.max(1e-300)).min(1.0);
+        let made = self.descend(level, &forces, &moves, cap);
+        Some(Step { asked, made, exact })
+    }
+
+    /// Halves the step until the energy falls, and learns λ from how that went.
+    fn descend(&mut self, level: &mut Level<'_>, forces: &[Vec3], moves: &[Vec3], cap: f64) -> f64 {
+        let before = level.energy(&level.at);
+        let noise = 1e-12 * before.abs().max(1.0);
+        let slope: f64 = forces.iter().zip(moves).map(|(force, way)| force.dot(way)).sum();
+        let mut part = cap;
+        for halvings in 0..8 {
+            let to: Vec<Vec3> = crate::threads::map(moves.len(), |node| {
+                level.free_way(node, level.at[node] + moves[node] * part)
+            });
+            if level.energy(&to) <= before - 1e-4 * part * slope + noise {
+                let made = to.iter().zip(&level.at).map(|(to, at)| (to - at).norm()).fold(0.0, f64::max);
+                level.at = to;
+                self.learn(halvings, cap);
+                return made;
+            }
+            part *= 0.5;
+        }
+        self.shift = (self.shift * 8.0).max(LEAST_SHIFT / level.lattice.pitch);
+        0.0
+    }
+
+    fn learn(&mut self, halvings: usize, cap: f64) {
+        match halvings {
+            0 if cap > 0.3 => self.shift *= 0.2,
+            0 => self.shift *= 0.7,
+            1 => (),
+            _ => self.shift *= 3.0,
+        }
+    }
+}
+
+/// Below this λ times pitch the shift is dropped.
+const LEAST_SHIFT: f64 = 1e-4;
+
+pub(super) fn longest(moves: &[Vec3]) -> f64 {
+    moves.iter().map(Vec3::norm).fold(0.0, |longest, way| if way <= longest { longest } else { way })
+}

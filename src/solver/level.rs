@@ -1,0 +1,87 @@
+//! One lattice on its way to rest: what the sweeps and the joint steps both work on.
+
+use super::{
+    dissection::{Neighbours, dissect},
+    factor::Plan,
+    stiffness::Stiffness,
+};
+use crate::{
+    body::Bodies,
+    contact::Touches,
+    forces::Sheet,
+    lattice::Lattice,
+    math::Vec3,
+};
+
+/// The state of one level.
+#[derive(Debug)]
+pub(super) struct Level<'a> {
+    pub(super) lattice: &'a Lattice,
+    pub(super) sheet: Sheet<'a>,
+    pub(super) bodies: &'a Bodies,
+    pub(super) touches: Touches,
+    /// Which nodes are held.
+    pub(super) held: Vec<bool>,
+    /// Free nodes by colour.
+    pub(super) colours: Vec<Vec<u32>>,
+    /// Positions [cm].
+    pub(super) at: Vec<Vec3>,
+    /// Whether a node feels only its own ten forces.
+    pub(super) own_only: bool,
+    pub(super) sweeps: usize,
+    pub(super) joint_steps: usize,
+}
+
+impl<'a> Level<'a> {
+    /// The joint system's order of elimination and empty matrix.
+    pub(super) fn plan(&self) -> (Plan, Stiffness) {
+        let nodes = self.at.len();
+        let mut pairs = self.sheet.joined();
+        for cell in &self.lattice.cells {
+            for (k, a) in cell.iter().enumerate() {
+                pairs.extend(cell[k + 1..].iter().map(|b| [*a.min(b), *a.max(b)]));
+            }
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        let neighbours = Neighbours::new(nodes, &pairs);
+        let free = (0..nodes as u32).filter(|node| !self.held[*node as usize]).collect();
+        let parts = dissect(free, &self.lattice.coordinates, &neighbours);
+        let plan = Plan::new(parts, &neighbours, nodes);
+        let stiffness = Stiffness::new(&neighbours, &plan.rank);
+        (plan, stiffness)
+    }
+
+    /// Energy of cloth, weight and touches [gf·cm].
+    pub(super) fn energy(&self, at: &[Vec3]) -> f64 {
+        self.sheet.energy(at) + self.touches.energy(at)
+    }
+
+    /// Forces of cloth, weight and touches; none on held nodes [gf].
+    pub(super) fn forces(&self, at: &[Vec3]) -> Vec<Vec3> {
+        let mut forces = self.sheet.forces(at);
+        self.touches.add_forces(at, &mut forces);
+        for (force, held) in forces.iter_mut().zip(&self.held) {
+            if *held {
+                *force = Vec3::zeros();
+            }
+        }
+        forces
+    }
+
+    /// Looks again where bodies are near and how hard they press; moves up to `way` [cm] follow.
+    pub(super) fn look(&mut self, way: f64, sample_way: f64) {
+        self.touches.refresh(&self.at, self.bodies, way, sample_way);
+        self.touches.look_at_loads(&self.at);
+    }
+
+    /// Where a node may go instead of `to`: no farther than the first surface in its way.
+    pub(super) fn free_way(&self, node: usize, to: Vec3) -> Vec3 {
+        let from = self.at[node];
+        if !self.touches.is_near(node) {
+            return to;
+        }
+        let free = self.bodies.free_way(&from, &to);
+        if free < 1.0 { from + (to - from) * (0.9 * free) } else { to }
+    }
+}

@@ -1,0 +1,169 @@
+//! Where a drape begins: the flat cloth in its place, its holds, and a breath of disorder.
+
+use super::{Grip, Problem, Unsolvable};
+use crate::{
+    contact::Surface,
+    forces::Clamp,
+    lattice::Lattice,
+    math::Vec3,
+};
+
+/// The problem on one lattice.
+#[derive(Clone, Debug)]
+pub(super) struct Start {
+    /// Positions of the flat cloth [cm].
+    pub(super) at: Vec<Vec3>,
+    /// Which nodes are held.
+    pub(super) held: Vec<bool>,
+    /// How far each held node is carried [cm].
+    pub(super) carry: Vec<(u32, Vec3)>,
+    /// The vices.
+    pub(super) clamps: Vec<Clamp>,
+}
+
+/// Height of the disorder that lets folds begin, in pitches: far below anything measured.
+const DISORDER: f64 = 1e-3;
+
+impl Start {
+    /// Lays the flat cloth out and takes hold of it.
+    pub(super) fn new(problem: &Problem, lattice: &Lattice) -> Result<Self, Unsolvable> {
+        let place = &problem.placement;
+        let at = lattice
+            .coordinates
+            .iter()
+            .map(|cloth| {
+                let flat = problem.piece.to_outline(*cloth);
+                place.centre + place.x_axis * flat.x + place.y_axis * flat.y
+            })
+            .collect();
+        let nodes = lattice.coordinates.len();
+        let mut start = Self { at, held: vec![false; nodes], carry: Vec::new(), clamps: Vec::new() };
+        for (index, hold) in problem.holds.iter().enumerate() {
+            let nodes = match hold.grip {
+                Grip::Edge(edge) => problem.piece.edge_nodes(lattice, edge),
+                Grip::Point(point) => {
+                    let cloth = problem.piece.to_cloth(point);
+                    let (node, distance) = lattice.nearest_node(cloth);
+                    if distance > 1.01 * lattice.pitch {
+                        let (x, y) = (point.x, point.y);
+                        return Err(Unsolvable::HoldOutside { index: index + 1, x, y });
+                    }
+                    vec![node]
+                }
+            };
+            for node in nodes {
+                if !core::mem::replace(&mut start.held[node as usize], true) {
+                    start.carry.push((node, hold.carry));
+                }
+            }
+        }
+        start.clamp(problem, lattice);
+        Ok(start)
+    }
+
+    /// Keeps the slope of every rod that leaves a clamped hold.
+    fn clamp(&mut self, problem: &Problem, lattice: &Lattice) {
+        if !problem.holds.iter().any(|hold| hold.clamp) {
+            return;
+        }
+        let mut clamped = vec![false; self.held.len()];
+        for hold in problem.holds.iter().filter(|hold| hold.clamp) {
+            let nodes = match hold.grip {
+                Grip::Edge(edge) => problem.piece.edge_nodes(lattice, edge),
+                Grip::Point(point) => {
+                    vec![lattice.nearest_node(problem.piece.to_cloth(point)).0]
+                }
+            };
+            for node in nodes {
+                clamped[node as usize] = true;
+            }
+        }
+        for rod in &lattice.rods {
+            let [a, b] = rod.nodes;
+            for [held, next] in [[a, b], [b, a]] {
+                if clamped[held as usize] && !self.held[next as usize] {
+                    let along = self.at[next as usize] - self.at[held as usize];
+                    self.clamps.push(Clamp {
+                        nodes: [held, next],
+                        slope: along / along.norm(),
+                        yarn: rod.yarn,
+                        length: rod.rest,
+                        width: rod.width,
+                    });
+                }
+            }
+        }
+    }
+
+    /// Refuses a start inside a body, or with a body through the cloth.
+    pub(super) fn check(&self, problem: &Problem, lattice: &Lattice) -> Result<(), Unsolvable> {
+        let bodies = &problem.bodies;
+        for position in &self.at {
+            let depth = bodies.depth(position);
+            if depth > 1e-9 {
+                return Err(inside(problem, position, depth));
+            }
+        }
+        for rod in &lattice.rods {
+            let [a, b] = rod.nodes.map(|node| self.at[node as usize]);
+            let free = bodies.free_way(&a, &b);
+            if free < 1.0 {
+                return Err(inside(problem, &(a + (b - a) * free), 0.0));
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets a cloth that nothing holds fall until it is about to touch; `None` where it falls for
+    /// ever.
+    pub(super) fn fall(&mut self, problem: &Problem, surface: &Surface, lattice: &Lattice) -> Option<()> {
+        if self.held.iter().any(|held| *held) {
+            return Some(());
+        }
+        let sites = crate::contact::Sites::new(lattice);
+        let falls = crate::threads::map(sites.len(), |site| {
+            problem.bodies.fall(&sites.site(site).at(&self.at))
+        });
+        let fall = falls.into_iter().flatten().reduce(f64::min)?;
+        let fall = (fall - 1.5 * surface.node_reach()).max(0.0);
+        for position in &mut self.at {
+            position.z -= fall;
+        }
+        Some(())
+    }
+
+    /// Moves every free node by a hash of the seed and its place, far below the pitch.
+    pub(super) fn disturb(&self, at: &mut [Vec3], lattice: &Lattice, seed: u64) {
+        for ((position, grid), held) in at.iter_mut().zip(&lattice.grid).zip(&self.held) {
+            if *held {
+                continue;
+            }
+            let place = (grid[0] as u32 as u64) << 32 | grid[1] as u32 as u64;
+            for axis in 0..3 {
+                let number = mix(mix(seed ^ (axis as u64 + 1)) ^ place);
+                let unit = (number >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
+                position[axis] += 2.0 * unit * DISORDER * lattice.pitch;
+            }
+        }
+    }
+}
+
+fn inside(problem: &Problem, at: &Vec3, depth: f64) -> Unsolvable {
+    let nearest = problem.bodies.near(at, 1e-6).into_iter().next();
+    let part = nearest.and_then(|near| problem.bodies.parts().get(near.part));
+    Unsolvable::StartsInside {
+        part: part.map_or_else(|| "a body".to_owned(), |part| part.name().to_owned()),
+        depth,
+        x: at.x,
+        y: at.y,
+        z: at.z,
+    }
+}
+
+/// A step of the splitmix64 generator (Steele, Lea & Flood 2014).
+fn mix(seed: u64) -> u64 {
+    let mut z = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}

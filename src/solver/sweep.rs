@@ -1,0 +1,63 @@
+//! The paper's solver: each node in turn to its own equilibrium, by the 3×3 system (8).
+//!
+//! Nodes of one colour share no force, so they move side by side and the result does not depend
+//! on their order.
+
+use super::level::Level;
+use crate::{
+    forces::{Pull, paper_forces},
+    math::{Mat3, Vec3},
+    threads,
+};
+
+/// A node moves at most this part of a pitch at a visit: farther, its neighbours' places mean
+/// nothing.
+const LONGEST_MOVE: f64 = 0.25;
+
+impl Level<'_> {
+    /// One sweep over all colours. Returns the longest move [cm].
+    pub(super) fn sweep(&mut self) -> f64 {
+        let mut longest = 0.0_f64;
+        for colour in 0..self.colours.len() {
+            let nodes = core::mem::take(&mut self.colours[colour]);
+            let moved = threads::map(nodes.len(), |k| self.visit(nodes[k] as usize));
+            for (node, to) in nodes.iter().zip(moved) {
+                let here = &mut self.at[*node as usize];
+                longest = longest.max((to - *here).norm());
+                *here = to;
+            }
+            self.colours[colour] = nodes;
+        }
+        self.sweeps += 1;
+        longest
+    }
+
+    /// Where a node's own equilibrium is, by (8), within the longest move and the free way.
+    fn visit(&self, node: usize) -> Vec3 {
+        let pull = self.pull(node);
+        let here = self.at[node];
+        let (push, block) = self.touches.pull(node, &self.at);
+        let floor = self.sheet.weights()[node] / self.lattice.pitch;
+        let stiffness = pull.stiffness + block + Mat3::identity() * floor;
+        let Some(way) = solve(&stiffness, &(pull.force + push)) else { return here };
+        let longest = LONGEST_MOVE * self.lattice.pitch;
+        let way = way * (longest / way.norm().max(longest));
+        self.free_way(node, here + way)
+    }
+
+    fn pull(&self, node: usize) -> Pull {
+        if self.own_only {
+            // Numerical derivatives need the node moved: on a copy of nothing but its surroundings
+            // this would be faster, but the paper's forces are for comparison.
+            let mut at = self.at.clone();
+            return paper_forces(&self.sheet, node, &mut at);
+        }
+        self.sheet.pull(node, &self.at)
+    }
+}
+
+/// Solves (8) for the move; `None` where the block is not positive definite.
+fn solve(stiffness: &Mat3, force: &Vec3) -> Option<Vec3> {
+    let way = stiffness.cholesky()?.solve(force);
+    way.iter().all(|x| x.is_finite()).then_some(way)
+}
