@@ -3,7 +3,7 @@
 use super::{
     document::{Allowed, At, Document, mesh_bytes},
     error::{Fault, SceneError},
-    format::{BodyFile, BodyTable, HullTable, Numbers, UnitWord, UpWord},
+    format::{BodyFile, BodyTable, HullTable, Numbers, Table, UnitWord, UpWord},
 };
 use crate::{
     body::{Format, Inspection, Mesh, Part, Shape, Unit, Up},
@@ -40,7 +40,11 @@ pub(super) struct Solids {
 
 impl Solids {
     /// Adds the bodies of a list.
-    pub(super) fn add_all(&mut self, at: &At<'_>, bodies: &[BodyTable]) -> Result<(), SceneError> {
+    pub(super) fn add_all(
+        &mut self,
+        at: &At<'_>,
+        bodies: &[Table<BodyTable>],
+    ) -> Result<(), SceneError> {
         let here = Frame {
             pose: Pose::identity(),
             name: String::new(),
@@ -52,7 +56,7 @@ impl Solids {
     fn add_list(
         &mut self,
         at: &At<'_>,
-        bodies: &[BodyTable],
+        bodies: &[Table<BodyTable>],
         kind: &str,
         frame: &Frame,
     ) -> Result<(), SceneError> {
@@ -225,7 +229,7 @@ fn convex_hull(at: &At<'_>, hull: &HullTable) -> Result<Shape, SceneError> {
         };
         let unit = unit(at, hull.unit.ok_or_else(missing)?, hull.scale)?;
         let (mesh, _) = read_mesh(at, file, unit, up(hull.up))?;
-        let points = mesh.vertices().to_vec();
+        let points = mesh.vertices;
         return Ok(Shape::ConvexHull { points });
     }
     let mut points = Vec::new();

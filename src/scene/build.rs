@@ -5,13 +5,15 @@ use super::{
     error::{Fault, SceneError},
     format::{
         ClothTable, ContactTable, EdgeWord, ForcesWord, HoldTable, LawWord, Numbers, SolveTable,
+        Table,
     },
 };
 use crate::{
     fabric::{Fabric, Quantity},
+    forces::Laws,
     lattice::{Edge, Outline, OutlineError, Piece},
     math::{Vec2, Vec3},
-    solver::{ForceModel, Grip, Hold, Laws, Placement, Unsolvable},
+    solver::{ForceModel, Grip, Hold, Placement, Unsolvable},
 };
 
 const SIZE: Allowed = Allowed::new(0.01, 1e4, "cm");
@@ -117,9 +119,11 @@ fn axis(at: &At<'_>, given: Option<Numbers<3>>, usual: Vec3) -> Result<Vec3, Sce
     }
 }
 
-pub(super) fn holds(at: &At<'_>, tables: &[HoldTable]) -> Result<Vec<Hold>, SceneError> {
-    let lowered = |(item, table)| hold(&at.item(item), table);
-    tables.iter().enumerate().map(lowered).collect()
+pub(super) fn holds(at: &At<'_>, tables: &[Table<HoldTable>]) -> Result<Vec<Hold>, SceneError> {
+    let tables = tables.iter().enumerate();
+    tables
+        .map(|(item, table)| hold(&at.item(item), table))
+        .collect()
 }
 
 fn hold(at: &At<'_>, table: &HoldTable) -> Result<Hold, SceneError> {

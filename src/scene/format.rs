@@ -5,23 +5,42 @@
 //! [`schema`](super::schema).
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::Deserialize;
-use std::{borrow::Cow, path::PathBuf};
+use serde::{
+    Deserialize, Deserializer,
+    de::{Error, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer},
+};
+use std::{borrow::Cow, fmt, marker::PhantomData, ops::Deref, path::PathBuf};
 
 /// A list of exactly N numbers.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(try_from = "Vec<f64>")]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Numbers<const N: usize>(pub(super) [f64; N]);
 
-impl<const N: usize> TryFrom<Vec<f64>> for Numbers<N> {
-    type Error = String;
+impl<'de, const N: usize> Deserialize<'de> for Numbers<N> {
+    fn deserialize<D: Deserializer<'de>>(list: D) -> Result<Self, D::Error> {
+        list.deserialize_seq(NumbersVisitor)
+    }
+}
 
-    fn try_from(list: Vec<f64>) -> Result<Self, String> {
+// The count is checked within the visit, where toml still knows the place of the list.
+struct NumbersVisitor<const N: usize>;
+
+impl<'de, const N: usize> Visitor<'de> for NumbersVisitor<N> {
+    type Value = Numbers<N>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a list of {N} numbers")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Self::Value, A::Error> {
+        let mut list = Vec::new();
+        while let Some(number) = items.next_element()? {
+            list.push(number);
+        }
         let count = list.len();
-        let numbers = list
-            .try_into()
-            .map_err(|_| format!("{count} numbers, expected a list of {N} numbers"))?;
-        Ok(Self(numbers))
+        let numbers = list.try_into();
+        numbers
+            .map(Numbers)
+            .map_err(|_| A::Error::invalid_length(count, &self))
     }
 }
 
@@ -41,6 +60,40 @@ impl<const N: usize> JsonSchema for Numbers<N> {
     }
 }
 
+/// A table with keys. serde would also take a list of the values in their order, which no one who
+/// reads the file can tell apart.
+#[derive(Debug, Default, JsonSchema)]
+#[schemars(transparent)]
+pub(super) struct Table<T>(T);
+
+impl<T> Deref for Table<T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        &self.0
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
+    fn deserialize<D: Deserializer<'de>>(table: D) -> Result<Self, D::Error> {
+        table.deserialize_map(TableVisitor(PhantomData))
+    }
+}
+
+struct TableVisitor<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for TableVisitor<T> {
+    type Value = Table<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a table")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, keys: A) -> Result<Self::Value, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(keys)).map(Table)
+    }
+}
+
 /// A cloth, what it hangs on, and how it starts.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -50,17 +103,17 @@ pub(super) struct SceneFile {
     /// Chooses the tiny perturbation from which folds begin; 0 where absent.
     #[serde(default)]
     pub(super) seed: u64,
-    pub(super) cloth: ClothTable,
+    pub(super) cloth: Table<ClothTable>,
     /// What is held in space.
     #[serde(default)]
-    pub(super) hold: Vec<HoldTable>,
+    pub(super) hold: Vec<Table<HoldTable>>,
     /// What the cloth may rest on.
     #[serde(default)]
-    pub(super) body: Vec<BodyTable>,
+    pub(super) body: Vec<Table<BodyTable>>,
     #[serde(default)]
-    pub(super) contact: ContactTable,
+    pub(super) contact: Table<ContactTable>,
     #[serde(default)]
-    pub(super) solve: SolveTable,
+    pub(super) solve: Table<SolveTable>,
 }
 
 /// The piece of cloth: exactly one of size_cm, disc_radius_cm, outline_cm.
@@ -120,13 +173,13 @@ pub(super) enum EdgeWord {
 pub(super) struct BodyTable {
     /// What messages call it.
     pub(super) name: Option<String>,
-    pub(super) ball: Option<BallTable>,
-    pub(super) capsule: Option<CapsuleTable>,
-    pub(super) cuboid: Option<CuboidTable>,
-    pub(super) cylinder: Option<RoundTable>,
-    pub(super) cone: Option<RoundTable>,
-    pub(super) convex_hull: Option<HullTable>,
-    pub(super) mesh: Option<MeshTable>,
+    pub(super) ball: Option<Table<BallTable>>,
+    pub(super) capsule: Option<Table<CapsuleTable>>,
+    pub(super) cuboid: Option<Table<CuboidTable>>,
+    pub(super) cylinder: Option<Table<RoundTable>>,
+    pub(super) cone: Option<Table<RoundTable>>,
+    pub(super) convex_hull: Option<Table<HullTable>>,
+    pub(super) mesh: Option<Table<MeshTable>>,
     /// A body file, whose parts stand in this body's frame.
     pub(super) file: Option<PathBuf>,
     /// Where its own origin is [cm]; the origin where absent.
@@ -263,7 +316,7 @@ pub(super) struct BodyFile {
     /// Where its sizes are from.
     #[serde(default, rename = "source")]
     pub(super) _source: Option<String>,
-    pub(super) part: Vec<BodyTable>,
+    pub(super) part: Vec<Table<BodyTable>>,
 }
 
 /// A measured cloth.
@@ -275,9 +328,9 @@ pub(super) struct FabricFile {
     pub(super) source: String,
     pub(super) weight_gf_per_cm2: f64,
     pub(super) thickness_cm: f64,
-    pub(super) friction: FrictionTable,
-    pub(super) warp: DirectionTable,
-    pub(super) weft: DirectionTable,
+    pub(super) friction: Table<FrictionTable>,
+    pub(super) warp: Table<DirectionTable>,
+    pub(super) weft: Table<DirectionTable>,
 }
 
 /// Friction coefficients, used where a scene gives none.
@@ -292,7 +345,7 @@ pub(super) struct FrictionTable {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DirectionTable {
-    pub(super) tension: TensionTable,
+    pub(super) tension: Table<TensionTable>,
     /// Bending moment per width and curvature [gf·cm].
     pub(super) bending_gf_cm: f64,
     /// Shear force per width and radian [gf/cm].

@@ -93,7 +93,7 @@ pub fn read(path: &Path) -> Result<Scene, SceneError> {
         title: file
             .title
             .unwrap_or_else(|| name.to_string_lossy().into_owned()),
-        fabric: file.cloth.fabric,
+        fabric: file.cloth.fabric.clone(),
         fabric_file,
         problem,
         settings: Settings {

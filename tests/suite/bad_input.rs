@@ -81,6 +81,11 @@ const KEYS: &[Slip] = &[
     ),
     (
         "ball = { radius_cm = 10.0 }",
+        "ball = [10.0]",
+        &["body[1].ball is [10.0]; allowed: a table"],
+    ),
+    (
+        "ball = { radius_cm = 10.0 }",
         "ball = {}",
         &["missing key \"radius_cm\" in body[1].ball"],
     ),
@@ -417,11 +422,6 @@ const MEANINGS: &[Slip] = &[
             "starts inside",
             "body 1",
         ],
-    ),
-    (
-        "centre_cm = [0.0, 0.0, 25.0]",
-        "centre_cm = [0.0, 0.0, 15.0]",
-        &["cloth.centre_cm is [0.0, 0.0, 15.0]", "starts inside"],
     ),
     (
         "ball = { radius_cm = 10.0 }\nat_cm = [0.0, 0.0, 5.0]",

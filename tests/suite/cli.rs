@@ -2,6 +2,11 @@
 
 use crate::trial::{SCENE, Trial};
 use soen::fabric::SWATCHES;
+use std::{
+    fs,
+    io::{BufRead, BufReader, Read},
+    process::{Command, Stdio},
+};
 
 #[test]
 fn help_names_every_command_and_its_exit_codes() {
@@ -119,4 +124,92 @@ fn check_prints_what_it_understood() {
     ] {
         assert!(said.out.contains(part), "without {part:?}:\n{}", said.out);
     }
+}
+
+/// A small cloth that hangs by one edge: certified in a blink.
+const HANG: &str = r#"title = "hang"
+[cloth]
+fabric = "c"
+size_cm = [10.0, 10.0]
+spacing_cm = 2.0
+[[hold]]
+edge = "x-min"
+"#;
+
+#[test]
+fn a_certified_drape_exits_with_0_and_writes_every_file() {
+    let trial = Trial::new();
+    trial.put("hang.toml", HANG.as_bytes());
+    let said = trial.run(&[
+        "drape",
+        "hang.toml",
+        "--out",
+        "new/folder",
+        "--json",
+        "--map",
+        "gap",
+    ]);
+    assert_eq!(said.code, 0, "{}", said.err);
+    let read = |name: &str| fs::read(trial.path().join("new/folder").join(name)).unwrap();
+    assert_eq!(said.out.as_bytes(), read("report.json"), "the report alone");
+    let report: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!(report["converged"], true);
+    assert_eq!(
+        (&report["title"], &report["fabric"]),
+        (&"hang".into(), &"c".into())
+    );
+    assert_eq!(report["nodes"], 36);
+    assert!(read("drape.obj").starts_with(b"#"));
+    assert!(read("drape.glb").starts_with(b"glTF"));
+    assert!(read("drape.ply").starts_with(b"ply"));
+    for picture in ["drape.png", "map-gap.png"] {
+        assert!(read(picture).starts_with(b"\x89PNG"), "{picture}");
+    }
+}
+
+#[test]
+fn a_drape_out_of_time_exits_with_3_and_says_so_everywhere() {
+    let trial = Trial::new();
+    trial.put("scene.toml", SCENE.as_bytes());
+    let said = trial.run(&["drape", "scene.toml", "--out", "out", "--max-seconds", "0"]);
+    stopped(&trial, said.code, &said.out, &said.err);
+    let mine = fs::read(trial.path().join("out/mine.txt")).unwrap();
+    assert_eq!(mine, b"kept", "files that are none of the drape's stay");
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_stops_and_still_writes() {
+    let trial = Trial::new();
+    let endless = SCENE.replace("tolerance = 1e-3", "tolerance = 1e-12");
+    trial.put("scene.toml", endless.as_bytes());
+    let mut run = Command::new(env!("CARGO_BIN_EXE_soen"))
+        .args(["drape", "scene.toml", "--out", "out"])
+        .current_dir(trial.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The first line of progress says that it listens.
+    let mut err = BufReader::new(run.stderr.take().unwrap());
+    let mut line = String::new();
+    err.read_line(&mut line).unwrap();
+    let kill = Command::new("kill")
+        .args(["-INT", &run.id().to_string()])
+        .status();
+    assert!(kill.unwrap().success());
+    err.read_to_string(&mut line).unwrap();
+    let output = run.wait_with_output().unwrap();
+    let out = String::from_utf8(output.stdout).unwrap();
+    stopped(&trial, output.status.code().unwrap_or(-1), &out, &line);
+}
+
+#[track_caller]
+fn stopped(trial: &Trial, code: i32, out: &str, err: &str) {
+    assert_eq!(code, 3, "{err}");
+    assert!(out.contains("NOT certified"), "{out}");
+    let read = |name: &str| fs::read_to_string(trial.path().join("out").join(name)).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&read("report.json")).unwrap();
+    assert_eq!(report["converged"], false);
+    assert!(read("drape.obj").contains("NOT AT REST"));
 }

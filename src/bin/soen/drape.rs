@@ -3,12 +3,12 @@
 use crate::{
     args::Wish,
     failure::{DONE, Failure, uncertified},
+    files::Files,
     progress::Teller,
     say,
 };
 use soen::{
-    math::Vec3,
-    output::{self, BodyMesh, ClothMesh, HeatMap, Map, Run},
+    output::{self, Run},
     scene::{self, Scene},
     solver::{self, Settings, Settled},
 };
@@ -37,7 +37,7 @@ pub(crate) fn drape(wish: &Wish) -> Result<ExitCode, Failure> {
         threads,
     };
     let report = output::report(&settled, &run);
-    write(wish, &scene, &settled, &report)?;
+    Files::new(wish, &scene, &settled).write(&report)?;
     say(&if wish.json {
         report
     } else {
@@ -109,78 +109,6 @@ fn settle(
     });
     teller.end();
     Ok(settled.map_err(|error| scene.refusal(error))?)
-}
-
-fn write(wish: &Wish, scene: &Scene, settled: &Settled, report: &str) -> Result<(), Failure> {
-    let cloth = ClothMesh {
-        lattice: &settled.lattice,
-        positions: &settled.positions,
-    };
-    let bodies = body_meshes(scene);
-    let maps = heat_maps(wish, scene, settled, &cloth);
-    let title = if settled.converged {
-        scene.title.clone()
-    } else {
-        format!("{} (stopped before it was at rest)", scene.title)
-    };
-    let put = |name: &str, bytes: &[u8]| output::write(&wish.out.join(name), bytes);
-    put("drape.obj", output::obj(&title, &cloth).as_bytes())?;
-    put("drape.glb", &output::glb(&cloth, &bodies, &maps))?;
-    put("drape.png", &output::picture(&cloth, &bodies, None))?;
-    for map in &maps {
-        let name = format!("map-{}.png", map.map.key());
-        put(&name, &output::picture(&cloth, &bodies, Some(map)))?;
-    }
-    if !maps.is_empty() {
-        put("drape.ply", &output::ply(&cloth, &maps))?;
-    }
-    for (number, positions) in (1..).zip(&settled.frames) {
-        let cloth = ClothMesh { positions, ..cloth };
-        let title = format!("{title}, frame {number}");
-        put(
-            &format!("frame-{number:04}.obj"),
-            output::obj(&title, &cloth).as_bytes(),
-        )?;
-        put(
-            &format!("frame-{number:04}.png"),
-            &output::picture(&cloth, &bodies, None),
-        )?;
-    }
-    // Last, so that a report beside the files says that all of them are there.
-    put("report.json", report.as_bytes())?;
-    Ok(())
-}
-
-fn body_meshes(scene: &Scene) -> Vec<BodyMesh> {
-    let parts = scene.problem.bodies.parts().iter();
-    let meshed = parts.map(|part| {
-        let (vertices, triangles) = part.triangles();
-        BodyMesh {
-            name: part.name().to_owned(),
-            vertices,
-            triangles,
-        }
-    });
-    meshed.collect()
-}
-
-fn heat_maps(wish: &Wish, scene: &Scene, settled: &Settled, cloth: &ClothMesh<'_>) -> Vec<HeatMap> {
-    let gaps = wish.maps.contains(&Map::Gap).then(|| gaps(scene, cloth));
-    let of = |map| HeatMap::of(map, cloth, Some(&settled.contact), gaps.as_deref());
-    wish.maps.iter().copied().filter_map(of).collect()
-}
-
-/// Distance of each node to the nearest body [cm].
-fn gaps(scene: &Scene, cloth: &ClothMesh<'_>) -> Vec<f64> {
-    // Farther than any cloth is from its body [cm].
-    const REACH: f64 = 1e3;
-    let gap = |at: &Vec3| {
-        let near = scene.problem.bodies.near(at, REACH);
-        near.iter()
-            .map(|near| near.distance)
-            .fold(f64::NAN, f64::min)
-    };
-    cloth.positions.iter().map(gap).collect()
 }
 
 /// The certificate as a short table.

@@ -5,6 +5,7 @@ mod check;
 mod drape;
 mod fabric;
 mod failure;
+mod files;
 mod progress;
 mod schema;
 
