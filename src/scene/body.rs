@@ -248,14 +248,14 @@ fn read_mesh(at: &At<'_>, file: &Path, unit: Unit, up: Up) -> Result<(Mesh, Path
     let bytes = mesh_bytes(&path).map_err(|fault| SceneError {
         file: path.clone(),
         place: None,
-        fault,
+        fault: Box::new(fault),
     })?;
     match Mesh::read(&bytes, format, unit, up) {
         Ok(mesh) => Ok((mesh, path)),
         Err(error) => Err(at.error(Fault::Mesh {
             key: at.name(),
             file: path,
-            error,
+            error: Box::new(error),
         })),
     }
 }

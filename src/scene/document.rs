@@ -52,7 +52,7 @@ impl Document {
         let whole = |fault| SceneError {
             file: path.into(),
             place: None,
-            fault,
+            fault: Box::new(fault),
         };
         let bytes = bytes_of(path, LONGEST_TEXT).map_err(whole)?;
         let text = String::from_utf8(bytes).map_err(|error| {
@@ -73,7 +73,7 @@ impl Document {
         Err(SceneError {
             file: path,
             place: None,
-            fault,
+            fault: Box::new(fault),
         })
     }
 
@@ -142,8 +142,8 @@ impl Document {
     pub(super) fn error_at(&self, span: Option<Range<usize>>, fault: Fault) -> SceneError {
         SceneError {
             file: self.path.clone(),
-            place: span.and_then(|span| self.place(span)),
-            fault,
+            place: span.and_then(|span| self.place(span)).map(Box::new),
+            fault: Box::new(fault),
         }
     }
 
@@ -278,15 +278,17 @@ impl std::fmt::Display for Allowed {
 /// The file that a path names: in a folder or, failing that, from the folder the program runs in.
 /// Otherwise where it was sought, in words.
 pub(super) fn beside(folder: &Path, named: &Path) -> Result<PathBuf, String> {
-    let tried = [folder.join(named), named.to_owned()];
-    match tried.iter().find(|path| path.exists()) {
-        Some(found) => Ok(found.clone()),
-        None => {
-            let mut tried = tried.map(|path| path.display().to_string()).to_vec();
-            tried.dedup();
-            Err(tried.join(", "))
-        }
+    let mut tried = vec![folder.join(named), named.to_owned()];
+    if let Some(found) = tried.iter().find(|path| path.exists() && !path.is_dir()) {
+        return Ok(found.clone());
     }
+    tried.dedup();
+    let in_words = |path: PathBuf| {
+        let kind = if path.is_dir() { " (a folder)" } else { "" };
+        format!("{}{kind}", path.display())
+    };
+    let tried: Vec<String> = tried.into_iter().map(in_words).collect();
+    Err(tried.join(", "))
 }
 
 /// A mesh file's bytes.

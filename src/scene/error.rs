@@ -16,9 +16,9 @@ pub struct SceneError {
     /// The file.
     pub file: PathBuf,
     /// Where in it; absent where the file as a whole is at fault.
-    pub place: Option<Place>,
+    pub place: Option<Box<Place>>,
     /// What is wrong.
-    pub fault: Fault,
+    pub fault: Box<Fault>,
 }
 
 /// A place in a text.
@@ -138,7 +138,7 @@ pub enum Fault {
         /// The mesh file.
         file: PathBuf,
         /// What is wrong with it.
-        error: MeshError,
+        error: Box<MeshError>,
     },
     /// A part that is no solid.
     #[error("{key}: {error}")]
@@ -178,7 +178,7 @@ impl fmt::Display for SceneError {
         let Some(place) = &self.place else {
             return write!(f, "{file}: {}", self.fault);
         };
-        let Place { line, column, .. } = place;
+        let Place { line, column, .. } = place.as_ref();
         writeln!(f, "{file}:{line}:{column}: {}", self.fault)?;
         let (text, before) = place.window();
         let number = line.to_string();
@@ -250,12 +250,12 @@ mod tests {
         };
         SceneError {
             file: "scenes/x.toml".into(),
-            place: Some(place),
-            fault: Fault::NotAllowed {
+            place: Some(Box::new(place)),
+            fault: Box::new(Fault::NotAllowed {
                 key: "cloth.spacing_cm".into(),
                 value: "-0.5".into(),
                 allowed: "0.01 to 50 cm".into(),
-            },
+            }),
         }
         .to_string()
     }

@@ -42,7 +42,7 @@ fn from_here(name: &str) -> Result<Document, SceneError> {
     let source = Source::find(Path::new(""), "fabric", name).map_err(|fault| SceneError {
         file: name.into(),
         place: None,
-        fault,
+        fault: Box::new(fault),
     })?;
     source.document()
 }

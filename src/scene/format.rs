@@ -62,9 +62,26 @@ impl<const N: usize> JsonSchema for Numbers<N> {
 
 /// A table with keys. serde would also take a list of the values in their order, which no one who
 /// reads the file can tell apart.
-#[derive(Debug, Default, JsonSchema)]
-#[schemars(transparent)]
+#[derive(Debug, Default)]
 pub(super) struct Table<T>(T);
+
+impl<T: JsonSchema> JsonSchema for Table<T> {
+    fn inline_schema() -> bool {
+        T::inline_schema()
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn schema_id() -> Cow<'static, str> {
+        T::schema_id()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
+    }
+}
 
 impl<T> Deref for Table<T> {
     type Target = T;

@@ -193,7 +193,7 @@ fn a_mesh_file_must_be_there_and_of_a_known_kind() {
     put_body(&trial, "mesh = { file = \"x.obj\", unit = \"cm\" }");
     refuses(&trial, 2, &["body[1].mesh.file is \"x.obj\": no such file"]);
     trial.put("x.obj/y", b"");
-    refuses(&trial, 2, &["x.obj: is a folder"]);
+    refuses(&trial, 2, &["no such file; tried x.obj (a folder)"]);
     trial.put("x.fbx", TETRAHEDRON.as_bytes());
     put_body(&trial, "mesh = { file = \"x.fbx\", unit = \"cm\" }");
     refuses(
