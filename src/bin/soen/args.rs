@@ -1,0 +1,93 @@
+//! Every command and option, with its help and its default.
+
+use clap::{Args, Parser, Subcommand};
+use soen::output::Map;
+use std::path::PathBuf;
+
+/// How measured cloth hangs over any body, with a certificate that it is at rest.
+#[derive(Debug, Parser)]
+#[command(version, arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Finds the shape in which a scene's cloth hangs, and writes it.
+    ///
+    /// Exit codes: 0 certified, 2 bad input, 3 stopped before it was certified (the files are
+    /// written and marked), 1 anything else. Ctrl-C stops and writes; a second one ends at once.
+    Drape(Wish),
+    /// Reads a scene and all its files, solves nothing, and prints what was understood.
+    Check {
+        /// The scene file.
+        scene: PathBuf,
+    },
+    /// Shows fabrics.
+    Fabric {
+        #[command(subcommand)]
+        wish: FabricWish,
+    },
+    /// Prints the JSON Schema of scene files, for editors.
+    Schema,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Wish {
+    /// The scene file.
+    pub(crate) scene: PathBuf,
+    /// Folder for drape.obj, drape.glb, drape.png and report.json.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Threads; all cores where not given. The result is the same, bit for bit.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Prints the report alone on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Stops after this time, in place of the scene's max_seconds.
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub(crate) max_seconds: Option<f64>,
+    /// Writes N shapes between start and rest as frame-0001.obj and .png, …
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=9999))]
+    pub(crate) frames: u16,
+    /// Also writes map-NAME.png and, with all maps in it, drape.ply: strain-warp, strain-weft,
+    /// shear, contact-pressure or gap. May be given more than once.
+    #[arg(long = "map", value_name = "NAME", value_parser = map)]
+    pub(crate) maps: Vec<Map>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum FabricWish {
+    /// Lists the fabrics that ship.
+    List,
+    /// Prints a fabric file, after checking it.
+    Show {
+        /// One of the fabrics that ship, a file in fabrics/, or a path to a .toml.
+        name: String,
+    },
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (0.0..=1e7).contains(&seconds) => Ok(seconds),
+        _ => Err("allowed: 0 to 10000000 seconds".into()),
+    }
+}
+
+fn map(word: &str) -> Result<Map, String> {
+    word.parse()
+        .map_err(|error: soen::output::UnknownMap| error.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_commands_are_well_formed() {
+        Arguments::command().debug_assert();
+    }
+}
