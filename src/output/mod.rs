@@ -1,7 +1,7 @@
 //! What a drape is handed on as: meshes for other programs (OBJ, GLB, PLY), a picture (PNG), heat
 //! maps with a legend in physical units, and the report (JSON).
 //!
-//! Everything is made in memory and returned; [`write`] alone touches files, and it replaces a
+//! Everything is made in memory and returned; [`write()`] alone touches files, and it replaces a
 //! file only by a whole one. Nothing here fails for a shape that is not at rest, not even for one
 //! whose positions are not finite: cells and bodies that cannot be drawn are left out.
 //! The same input gives the same bytes, whatever the number of threads.

@@ -1,39 +1,59 @@
 //! Light, averaged over a period of the lamp's pattern between neighbours on one surface.
 
-use super::{Sample, lamp::PERIOD, rows};
+use super::{Met, Sample, lamp::PERIOD, rows};
 
 /// Replaces each sample's shares of lamp and sky by their means over the samples around it that
 /// lie on the same surface. Where all of them do, each place in the pattern counts once.
+///
+/// On the floor, far from what casts the shadow, the lamp's points are seen one by one as streaks;
+/// there a second mean is taken, twice as wide.
 pub(super) fn soften(samples: &mut [Sample], width: usize) {
-    let height = samples.len() / width.max(1);
-    let light = rows(height, |y| {
-        (0..width).map(|x| mean(samples, width, x, y)).collect()
-    });
-    for (sample, [lamp, sky]) in samples.iter_mut().zip(light) {
-        (sample.lamp, sample.sky) = (lamp, sky);
+    for (stride, all) in [(1, true), (2, false)] {
+        let softened =
+            |sample: &Sample| sample.on == Met::Floor || (all && sample.on != Met::Nothing);
+        let height = samples.len() / width.max(1);
+        let row = |y| {
+            let own = samples.get(y * width..(y + 1) * width).unwrap_or_default();
+            let light = |(x, sample): (usize, &Sample)| {
+                softened(sample).then(|| mean(samples, width, [x, y], stride))
+            };
+            own.iter().enumerate().map(light).collect()
+        };
+        let light = rows(height, row);
+        for (sample, light) in samples.iter_mut().zip(light) {
+            if let Some([lamp, sky]) = light {
+                (sample.lamp, sample.sky) = (lamp, sky);
+            }
+        }
     }
 }
 
-fn mean(samples: &[Sample], width: usize, x: usize, y: usize) -> [f32; 2] {
+fn mean(samples: &[Sample], width: usize, [x, y]: [usize; 2], stride: usize) -> [f32; 2] {
     let Some(own) = samples.get(y * width + x) else {
         return [0.0; 2];
     };
-    if own.on == super::Met::Nothing {
-        return [1.0; 2];
-    }
-    let (left, right) = (x.saturating_sub(PERIOD / 2), (x + PERIOD / 2).min(width));
+    let reach = stride * PERIOD / 2;
+    let (left, right) = (x.saturating_sub(reach), (x + reach).min(width));
     let [mut lamp, mut sky, mut count] = [0.0_f32; 3];
-    for row in y.saturating_sub(PERIOD / 2)..y + PERIOD / 2 {
+    for row in (y.saturating_sub(reach)..y + reach).step_by(stride) {
         let around = samples
             .get(row * width + left..row * width + right)
             .unwrap_or_default();
-        for other in around.iter().filter(|other| same_surface(own, other)) {
+        for other in around
+            .iter()
+            .step_by(stride)
+            .filter(|other| same_surface(own, other))
+        {
             lamp += other.lamp;
             sky += other.sky;
             count += 1.0;
         }
     }
-    [lamp / count, sky / count]
+    if count > 0.0 {
+        [lamp / count, sky / count]
+    } else {
+        [own.lamp, own.sky]
+    }
 }
 
 /// Whether two samples lie on one smooth piece: met alike, facing alike, and as deep as the slope
@@ -46,7 +66,6 @@ fn same_surface(a: &Sample, b: &Sample) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::picture::Met;
 
     fn wall(width: usize, height: usize) -> Vec<Sample> {
         let at = |k: usize| Sample {
