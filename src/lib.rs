@@ -1,12 +1,12 @@
 //! soen
-pub mod math;
-mod threads;
-pub mod fabric;
-pub mod lattice;
 pub mod body;
-pub mod forces;
-pub mod contact;
 pub mod certificate;
-pub mod solver;
+pub mod contact;
+pub mod fabric;
+pub mod forces;
+pub mod lattice;
+pub mod math;
 pub mod output;
 pub mod scene;
+pub mod solver;
+mod threads;

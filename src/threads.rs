@@ -6,7 +6,11 @@ pub(crate) fn map<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync + Send
     #[cfg(feature = "threads")]
     {
         use rayon::prelude::*;
-        (0..count).into_par_iter().with_min_len(64).map(work).collect()
+        (0..count)
+            .into_par_iter()
+            .with_min_len(64)
+            .map(work)
+            .collect()
     }
     #[cfg(not(feature = "threads"))]
     {
@@ -25,7 +29,10 @@ pub(crate) fn for_each_chunk<T: Send>(
         use rayon::prelude::*;
         // Below this, waking another core costs more than it takes off.
         if entries.len() > 1 << 15 {
-            entries.par_chunks_mut(length).enumerate().for_each(|(k, chunk)| work(k, chunk));
+            entries
+                .par_chunks_mut(length)
+                .enumerate()
+                .for_each(|(k, chunk)| work(k, chunk));
             return;
         }
     }

@@ -74,7 +74,9 @@ pub enum PartError {
         value: f64,
     },
     /// Points that enclose nothing.
-    #[error("the convex hull of {0} points has no volume: give at least 4 points, not in one plane")]
+    #[error(
+        "the convex hull of {0} points has no volume: give at least 4 points, not in one plane"
+    )]
     FlatHull(usize),
     /// The mesh is unusable.
     #[error(transparent)]
@@ -96,7 +98,10 @@ pub struct Part {
 
 impl core::fmt::Debug for Part {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Part").field("name", &self.name).field("nature", &self.nature).finish()
+        f.debug_struct("Part")
+            .field("name", &self.name)
+            .field("nature", &self.nature)
+            .finish()
     }
 }
 
@@ -109,7 +114,13 @@ impl Part {
         let pose = parry_pose(&pose) * own_turn(shape);
         let (shape, nature) = parry_shape(shape)?;
         let centre = shape.compute_aabb(&pose).center().into();
-        Ok(Self { name, nature, shape, pose, centre })
+        Ok(Self {
+            name,
+            nature,
+            shape,
+            pose,
+            centre,
+        })
     }
 
     /// Its name in the scene.
@@ -144,7 +155,13 @@ impl Part {
     #[must_use]
     pub fn triangles(&self) -> (Vec<Vec3>, Vec<[u32; 3]>) {
         let (points, triangles) = surface(&self.shape);
-        (points.into_iter().map(|point| (self.pose * point).into()).collect(), triangles)
+        (
+            points
+                .into_iter()
+                .map(|point| (self.pose * point).into())
+                .collect(),
+            triangles,
+        )
     }
 }
 
@@ -157,9 +174,10 @@ fn parry_pose(pose: &Pose) -> ParryPose {
 fn parry_shape(shape: &Shape) -> Result<(SharedShape, Nature), PartError> {
     let built = match shape {
         Shape::Ball { radius } => SharedShape::ball(length("radius", *radius)?),
-        Shape::Capsule { radius, length: axis } => {
-            SharedShape::capsule_z(0.5 * length("length", *axis)?, length("radius", *radius)?)
-        }
+        Shape::Capsule {
+            radius,
+            length: axis,
+        } => SharedShape::capsule_z(0.5 * length("length", *axis)?, length("radius", *radius)?),
         Shape::Cuboid { size } => {
             let half = |axis: usize| Ok::<f64, PartError>(0.5 * length("size", size[axis])?);
             SharedShape::cuboid(half(0)?, half(1)?, half(2)?)
@@ -177,7 +195,11 @@ fn parry_shape(shape: &Shape) -> Result<(SharedShape, Nature), PartError> {
 }
 
 fn length(quantity: &'static str, value: f64) -> Result<f64, PartError> {
-    if (0.01..=1e4).contains(&value) { Ok(value) } else { Err(PartError::Length { quantity, value }) }
+    if (0.01..=1e4).contains(&value) {
+        Ok(value)
+    } else {
+        Err(PartError::Length { quantity, value })
+    }
 }
 
 /// parry's cylinders and cones stand along y; ours along z.
@@ -202,9 +224,17 @@ fn hull(points: &[Vec3]) -> Result<SharedShape, PartError> {
 
 fn meshed(mesh: &Mesh) -> Result<(SharedShape, Nature), PartError> {
     let closed = mesh.inspection().closed;
-    let flags = if closed { TriMeshFlags::ORIENTED } else { TriMeshFlags::empty() };
-    let vertices = mesh.vertices().iter().map(|vertex| Vector::from(*vertex)).collect();
-    let shape = trimesh(vertices, mesh.triangles().to_vec(), flags)?;
+    let flags = if closed {
+        TriMeshFlags::ORIENTED
+    } else {
+        TriMeshFlags::empty()
+    };
+    let vertices = mesh
+        .vertices
+        .iter()
+        .map(|vertex| Vector::from(*vertex))
+        .collect();
+    let shape = trimesh(vertices, mesh.triangles.to_vec(), flags)?;
     Ok((shape, if closed { Nature::Solid } else { Nature::Sheet }))
 }
 

@@ -46,8 +46,10 @@ impl Bodies {
     /// Gathers parts.
     #[must_use]
     pub fn new(parts: Vec<Part>) -> Self {
-        let boxes: Vec<Aabb> =
-            parts.iter().map(|part| part.shape().compute_aabb(part.pose())).collect();
+        let boxes: Vec<Aabb> = parts
+            .iter()
+            .map(|part| part.shape().compute_aabb(part.pose()))
+            .collect();
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
         Self { parts, boxes, tree }
     }
@@ -87,7 +89,10 @@ impl Bodies {
     pub fn depth(&self, point: &Vec3) -> f64 {
         let centre = Vector::from(*point);
         let inside = |part| nearest(&self.parts[part], part, point, 0.0, f64::MAX);
-        let inside = self.in_box(&Aabb::new(centre, centre)).into_iter().filter_map(inside);
+        let inside = self
+            .in_box(&Aabb::new(centre, centre))
+            .into_iter()
+            .filter_map(inside);
         inside.map(|near| -near.distance).fold(0.0, f64::max)
     }
 
@@ -97,7 +102,10 @@ impl Bodies {
         let (start, end) = (Vector::from(*from), Vector::from(*to));
         let around = Aabb::new(start.min(end), start.max(end));
         let hit = |part: usize| self.hit(part, from, to);
-        self.in_box(&around).into_iter().map(hit).fold(1.0, f64::min)
+        self.in_box(&around)
+            .into_iter()
+            .map(hit)
+            .fold(1.0, f64::min)
     }
 
     /// How far a point can fall before it meets a surface [cm].
@@ -115,7 +123,11 @@ impl Bodies {
             let part = &self.parts[part];
             part.shape().cast_ray(part.pose(), &ray, 1.0, true)
         };
-        let first = self.in_box(&around).into_iter().filter_map(cast).reduce(f64::min)?;
+        let first = self
+            .in_box(&around)
+            .into_iter()
+            .filter_map(cast)
+            .reduce(f64::min)?;
         Some(first * (from.z - below.z))
     }
 
@@ -128,8 +140,11 @@ impl Bodies {
             };
             return (0..self.parts.len()).filter(meets).collect();
         }
-        let mut found: Vec<usize> =
-            self.tree.intersect_aabb(around).map(|leaf| leaf as usize).collect();
+        let mut found: Vec<usize> = self
+            .tree
+            .intersect_aabb(around)
+            .map(|leaf| leaf as usize)
+            .collect();
         found.sort_unstable();
         found
     }
@@ -138,7 +153,10 @@ impl Bodies {
     fn hit(&self, part: usize, from: &Vec3, to: &Vec3) -> f64 {
         let (index, part) = (part, &self.parts[part]);
         let ray = Ray::new((*from).into(), (to - from).into());
-        let Some(hit) = part.shape().cast_ray_and_get_normal(part.pose(), &ray, 1.0, true) else {
+        let Some(hit) = part
+            .shape()
+            .cast_ray_and_get_normal(part.pose(), &ray, 1.0, true)
+        else {
             return 1.0;
         };
         if part.nature() == Nature::Solid {
@@ -170,7 +188,11 @@ fn nearest(part: &Part, index: usize, point: &Vec3, reach: f64, search: f64) -> 
         let out = *point - Vec3::from(pose.translation);
         let distance = out.norm() - ball.radius;
         let normal = out.try_normalize(ON_THE_SURFACE).unwrap_or_else(Vec3::z);
-        return (distance <= reach).then_some(Near { part: index, distance, normal });
+        return (distance <= reach).then_some(Near {
+            part: index,
+            distance,
+            normal,
+        });
     }
     let found = shape.project_point_with_max_dist(pose, Vector::from(*point), false, search)?;
     let inside = part.nature() == Nature::Solid && found.is_inside;
@@ -185,5 +207,9 @@ fn nearest(part: &Part, index: usize, point: &Vec3, reach: f64, search: f64) -> 
         let out = *point - part.centre();
         out.try_normalize(ON_THE_SURFACE).unwrap_or_else(Vec3::z)
     };
-    Some(Near { part: index, distance: if inside { -size } else { size }, normal })
+    Some(Near {
+        part: index,
+        distance: if inside { -size } else { size },
+        normal,
+    })
 }

@@ -35,7 +35,10 @@ impl Loads<'_> {
             .area
             .iter()
             .map(|area| area * self.fabric.weight)
-            .map(|weight| Load { net: Vec3::new(0.0, 0.0, -weight), sum: weight })
+            .map(|weight| Load {
+                net: Vec3::new(0.0, 0.0, -weight),
+                sum: weight,
+            })
             .collect();
         if self.laws.tension {
             self.add_tensions(at, &mut loads);
@@ -78,7 +81,12 @@ impl Loads<'_> {
         for bend in &self.lattice.bends {
             let [a, b, c] = bend.nodes.map(|node| node as usize);
             let stiffness = self.direction(bend.yarn).bending * bend.width / bend.length;
-            let (first, second) = couple(&(at[b] - at[a]), &(at[c] - at[b]), stiffness, bend.rest_angle);
+            let (first, second) = couple(
+                &(at[b] - at[a]),
+                &(at[c] - at[b]),
+                stiffness,
+                bend.rest_angle,
+            );
             if !self.own_only {
                 loads[a].add(-first);
                 loads[c].add(second);
@@ -104,8 +112,12 @@ impl Loads<'_> {
         for corner in &self.lattice.corners {
             let [node, a, b] = corner.nodes.map(|node| node as usize);
             let stiffness = shear * corner.area;
-            let (first, second) =
-                couple(&(at[a] - at[node]), &(at[b] - at[node]), stiffness, corner.rest_angle);
+            let (first, second) = couple(
+                &(at[a] - at[node]),
+                &(at[b] - at[node]),
+                stiffness,
+                corner.rest_angle,
+            );
             if !self.own_only {
                 loads[a].add(first);
                 loads[b].add(second);
@@ -134,5 +146,8 @@ fn couple(u: &Vec3, v: &Vec3, stiffness: f64, rest: f64) -> (Vec3, Vec3) {
     let axis = normal / size;
     let excess = libm::atan2(size, u.dot(v)) - rest;
     let couple = stiffness * excess;
-    (axis.cross(u) * (couple / (length_u * length_u)), -axis.cross(v) * (couple / (length_v * length_v)))
+    (
+        axis.cross(u) * (couple / (length_u * length_u)),
+        -axis.cross(v) * (couple / (length_v * length_v)),
+    )
 }

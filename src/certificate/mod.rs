@@ -85,13 +85,23 @@ impl Certificate {
 pub fn certify(case: &Case<'_>, at: &[Vec3], tolerance: f64, remaining_move: f64) -> Certificate {
     let loads = case.loads().at(at);
     let touching = case.normals(at);
-    let residuals = threads::map(at.len(), |node| case.residual(node, &loads[node], &touching[node]));
+    let residuals = threads::map(at.len(), |node| {
+        case.residual(node, &loads[node], &touching[node])
+    });
     let worst = (0..at.len()).fold(0, |worst, node| {
-        if residuals[node] > residuals[worst] { node } else { worst }
+        if residuals[node] > residuals[worst] {
+            node
+        } else {
+            worst
+        }
     });
     let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
     let failing = |node: &usize| residuals[*node] > tolerance && !touching[*node].is_empty();
-    let pulled = |node: &usize| touching[*node].iter().all(|normal| loads[*node].net.dot(normal) > 0.0);
+    let pulled = |node: &usize| {
+        touching[*node]
+            .iter()
+            .all(|normal| loads[*node].net.dot(normal) > 0.0)
+    };
     let failing: Vec<usize> = (0..at.len()).filter(failing).collect();
     let pulled = failing.iter().filter(|node| pulled(node)).count();
     Certificate {
@@ -99,7 +109,10 @@ pub fn certify(case: &Case<'_>, at: &[Vec3], tolerance: f64, remaining_move: f64
         residual_rms: (squares / at.len().max(1) as f64).sqrt(),
         worst_node: at.get(worst).copied().unwrap_or_default(),
         remaining_move,
-        touching: touching.iter().filter(|normals| !normals.is_empty()).count(),
+        touching: touching
+            .iter()
+            .filter(|normals| !normals.is_empty())
+            .count(),
         pulled,
         outside_cone: failing.len() - pulled,
         deepest: deepest(case.lattice, case.bodies, at),
@@ -111,9 +124,11 @@ pub fn certify(case: &Case<'_>, at: &[Vec3], tolerance: f64, remaining_move: f64
 pub fn greatest_residual(case: &Case<'_>, at: &[Vec3]) -> f64 {
     let loads = case.loads().at(at);
     let touching = case.normals(at);
-    threads::map(at.len(), |node| case.residual(node, &loads[node], &touching[node]))
-        .into_iter()
-        .fold(0.0, f64::max)
+    threads::map(at.len(), |node| {
+        case.residual(node, &loads[node], &touching[node])
+    })
+    .into_iter()
+    .fold(0.0, f64::max)
 }
 
 impl Case<'_> {
@@ -131,7 +146,11 @@ impl Case<'_> {
     fn normals(&self, at: &[Vec3]) -> Vec<Vec<Vec3>> {
         let reach = self.surface.node_reach() + 1e-9;
         let near = |point: &Vec3, reach: f64| -> Vec<Vec3> {
-            self.bodies.near(point, reach).into_iter().map(|near| near.normal).collect()
+            self.bodies
+                .near(point, reach)
+                .into_iter()
+                .map(|near| near.normal)
+                .collect()
         };
         let mut normals = threads::map(at.len(), |node| near(&at[node], reach));
         let reach = self.surface.sample_reach() + 1e-9;
@@ -173,7 +192,9 @@ fn deepest(lattice: &Lattice, bodies: &Bodies, at: &[Vec3]) -> f64 {
         let points = samples(|k| k as f64 / 3.0).map(|(u, v)| blend(&corners, u, v));
         points.map(|point| bodies.depth(&point)).fold(0.0, f64::max)
     };
-    threads::map(lattice.cells.len(), of_cell).into_iter().fold(0.0, f64::max)
+    threads::map(lattice.cells.len(), of_cell)
+        .into_iter()
+        .fold(0.0, f64::max)
 }
 
 /// A grid of 4 × 4 places in a cell.

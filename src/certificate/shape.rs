@@ -32,7 +32,12 @@ pub fn drape_shape(case: &Case<'_>, at: &[Vec3]) -> DrapeShape {
     let lattice = case.lattice;
     let heights = || at.iter().map(|position| position.z);
     let area: f64 = lattice.area.iter().sum();
-    let moment: f64 = lattice.area.iter().zip(heights()).map(|(area, height)| area * height).sum();
+    let moment: f64 = lattice
+        .area
+        .iter()
+        .zip(heights())
+        .map(|(area, height)| area * height)
+        .sum();
     let strain_max = |yarn: Yarn| {
         let rods = lattice.rods.iter().filter(|rod| rod.yarn == yarn);
         rods.map(|rod| {

@@ -30,7 +30,11 @@ impl Skin {
         let slope = self.scale * growth / self.depth;
         let energy = self.scale * self.depth * (growth - 1.0 - inner);
         let beyond = d - inner * self.depth;
-        (energy + beyond * (force + 0.5 * beyond * slope), force + beyond * slope, slope)
+        (
+            energy + beyond * (force + 0.5 * beyond * slope),
+            force + beyond * slope,
+            slope,
+        )
     }
 }
 

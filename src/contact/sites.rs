@@ -69,14 +69,22 @@ impl Sites {
     #[must_use]
     pub fn site(&self, site: usize) -> Site {
         if site < self.nodes {
-            return Site { nodes: [site as u32; 4], weights: [1.0, 0.0, 0.0, 0.0] };
+            return Site {
+                nodes: [site as u32; 4],
+                weights: [1.0, 0.0, 0.0, 0.0],
+            };
         }
-        let (cell, sample) =
-            ((site - self.nodes) / (self.side * self.side), (site - self.nodes) % (self.side * self.side));
+        let (cell, sample) = (
+            (site - self.nodes) / (self.side * self.side),
+            (site - self.nodes) % (self.side * self.side),
+        );
         let place = |k: usize| (k as f64 + 0.5) / self.side as f64;
         let (u, v) = (place(sample % self.side), place(sample / self.side));
         let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v];
-        Site { nodes: self.cells[cell], weights }
+        Site {
+            nodes: self.cells[cell],
+            weights,
+        }
     }
 }
 

@@ -80,7 +80,13 @@ impl Touches {
     #[must_use]
     pub fn new(sites: Sites, surface: Surface, nodes: usize) -> Self {
         let clearance = vec![(0.0, Vec3::repeat(f64::INFINITY)); sites.len()];
-        Self { sites, surface, touches: Vec::new(), of_node: vec![Vec::new(); nodes], clearance }
+        Self {
+            sites,
+            surface,
+            touches: Vec::new(),
+            of_node: vec![Vec::new(); nodes],
+            clearance,
+        }
     }
 
     /// The touches.
@@ -96,7 +102,11 @@ impl Touches {
             return;
         }
         let found = threads::map(self.sites.len(), |number| {
-            let way = if self.sites.is_node(number) { way } else { sample_way };
+            let way = if self.sites.is_node(number) {
+                way
+            } else {
+                sample_way
+            };
             self.look(number, at, bodies, way)
         });
         let mut fresh = Vec::with_capacity(self.touches.len());
@@ -147,10 +157,14 @@ impl Touches {
         let site = self.sites.site(number);
         let here = site.at(at);
         let key = (number as u32, near.part as u32);
-        let before = self.touches.binary_search_by(|touch| (touch.number, touch.part).cmp(&key));
+        let before = self
+            .touches
+            .binary_search_by(|touch| (touch.number, touch.part).cmp(&key));
         let before = before.ok().map(|place| &self.touches[place]);
-        let skin =
-            Skin { scale: self.surface.pressure * self.sites.area(number), depth: SKIN_DEPTH };
+        let skin = Skin {
+            scale: self.surface.pressure * self.sites.area(number),
+            depth: SKIN_DEPTH,
+        };
         Touch {
             number: key.0,
             site,
@@ -204,7 +218,10 @@ impl Touches {
     /// Energy of all touches [gf·cm].
     #[must_use]
     pub fn energy(&self, at: &[Vec3]) -> f64 {
-        self.touches.iter().map(|touch| touch.energy(&touch.site.at(at))).sum()
+        self.touches
+            .iter()
+            .map(|touch| touch.energy(&touch.site.at(at)))
+            .sum()
     }
 
     /// Adds the touches' forces to the nodes' [gf].
@@ -220,7 +237,9 @@ impl Touches {
     /// Hands the touches' stiffness [gf/cm] to `add(row, column, block)`, each pair once.
     pub fn stiffness(&self, at: &[Vec3], add: &mut dyn FnMut(u32, u32, &Mat3)) {
         for touch in &self.touches {
-            let Some(block) = touch.stiffness(&touch.site.at(at)) else { continue };
+            let Some(block) = touch.stiffness(&touch.site.at(at)) else {
+                continue;
+            };
             for (k, (row, one)) in touch.site.shares().enumerate() {
                 for (column, other) in touch.site.shares().skip(k) {
                     add(row, column, &(block * (one * other)));
@@ -236,9 +255,15 @@ impl Touches {
         for k in &self.of_node[node] {
             let touch = &self.touches[*k as usize];
             let here = touch.site.at(at);
-            let Some(block) = touch.stiffness(&here) else { continue };
-            let weight: f64 =
-                touch.site.shares().filter(|(n, _)| *n as usize == node).map(|(_, w)| w).sum();
+            let Some(block) = touch.stiffness(&here) else {
+                continue;
+            };
+            let weight: f64 = touch
+                .site
+                .shares()
+                .filter(|(n, _)| *n as usize == node)
+                .map(|(_, w)| w)
+                .sum();
             force += touch.force(&here) * weight;
             stiffness += block * (weight * weight);
         }
@@ -256,8 +281,9 @@ impl Touches {
     pub fn loads(&self, at: &[Vec3]) -> Vec<f64> {
         let mut loads = vec![0.0; self.of_node.len()];
         for touch in &self.touches {
-            let (_, load, _) =
-                touch.skin.answer(touch.top - touch.normal.dot(&touch.site.at(at)));
+            let (_, load, _) = touch
+                .skin
+                .answer(touch.top - touch.normal.dot(&touch.site.at(at)));
             for (node, weight) in touch.site.shares() {
                 loads[node as usize] += load * weight;
             }

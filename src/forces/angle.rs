@@ -50,7 +50,15 @@ impl Pair {
         let cosine = unit_u.dot(&unit_v);
         let sine = unit_u.cross(&unit_v).norm();
         let angle = libm::atan2(sine, cosine);
-        Self { unit_u, unit_v, length_u, length_v, cosine, sine, angle }
+        Self {
+            unit_u,
+            unit_v,
+            length_u,
+            length_v,
+            cosine,
+            sine,
+            angle,
+        }
     }
 
     /// Derivatives of the cosine by u and v.
@@ -69,7 +77,10 @@ impl Pair {
         }
         let sine = self.sine.max(LEAST_SINE);
         let excess = self.angle - rest;
-        (-excess / sine, (1.0 - excess * self.cosine / sine) / (sine * sine))
+        (
+            -excess / sine,
+            (1.0 - excess * self.cosine / sine) / (sine * sine),
+        )
     }
 }
 
@@ -87,7 +98,11 @@ pub fn turn(u: &Vec3, v: &Vec3, stiffness: f64, rest: f64) -> Turn {
     let (first, _) = pair.law_slopes(rest);
     let (by_u, by_v) = pair.cosine_slopes();
     let pull = stiffness * first;
-    Turn { energy: 0.5 * stiffness * excess * excess, by_u: by_u * pull, by_v: by_v * pull }
+    Turn {
+        energy: 0.5 * stiffness * excess * excess,
+        by_u: by_u * pull,
+        by_v: by_v * pull,
+    }
 }
 
 /// The exact second derivatives. They may have negative directions.
@@ -129,10 +144,19 @@ pub fn turn_stiffness_positive(u: &Vec3, v: &Vec3, stiffness: f64, rest: f64) ->
             vv: across_v * (spread / (pair.length_v * pair.length_v)),
         }
     } else {
-        TurnStiffness { uu: Mat3::zeros(), uv: Mat3::zeros(), vv: Mat3::zeros() }
+        TurnStiffness {
+            uu: Mat3::zeros(),
+            uv: Mat3::zeros(),
+            vv: Mat3::zeros(),
+        }
     };
     let sine = pair.sine.max(LEAST_SINE);
-    let kept = stiffness * if rest == 0.0 { second } else { 1.0 / (sine * sine) };
+    let kept = stiffness
+        * if rest == 0.0 {
+            second
+        } else {
+            1.0 / (sine * sine)
+        };
     blocks.uu += by_u * by_u.transpose() * kept;
     blocks.uv += by_u * by_v.transpose() * kept;
     blocks.vv += by_v * by_v.transpose() * kept;

@@ -22,5 +22,8 @@ pub fn paper_forces(sheet: &Sheet<'_>, node: usize, at: &mut [Vec3]) -> Pull {
         at[node] = here;
         stiffness.set_column(axis, &((behind - ahead) / (2.0 * STEP)));
     }
-    Pull { force: sheet.force(node, at, true), stiffness }
+    Pull {
+        force: sheet.force(node, at, true),
+        stiffness,
+    }
 }

@@ -38,16 +38,17 @@ impl RodLaw<'_> {
         along * (self.width * self.tension.tension(self.strain(along), self.floor) / length)
     }
 
-    /// Second derivative of the energy by `along` [gf/cm]; with `positive`, without the sideways
-    /// push of a compressed rod, and never slack along it.
+    /// Second derivative of the energy by `along` [gf/cm]; with `positive`, the sideways push of a
+    /// compressed rod counts as a resistance: what buckles then moves as far as it would stretch.
     #[must_use]
     pub fn stiffness(&self, along: &Vec3, positive: bool) -> Mat3 {
         let length = along.norm().max(1e-12);
         let unit = along / length;
         let strain = self.strain(along);
-        let stretch = self.width * self.tension.tangent(strain, self.floor) / self.rest;
-        let sideways = self.width * self.tension.tension(strain, self.floor) / length;
-        let sideways = if positive { sideways.max(0.0) } else { sideways };
+        let answer = self.tension.answer(strain, self.floor);
+        let stretch = self.width * answer.tangent / self.rest;
+        let sideways = self.width * answer.tension / length;
+        let sideways = if positive { sideways.abs() } else { sideways };
         Mat3::identity() * sideways + unit * unit.transpose() * (stretch - sideways)
     }
 }

@@ -23,7 +23,11 @@ pub struct Laws {
 
 impl Default for Laws {
     fn default() -> Self {
-        Self { tension: true, bending: true, shear: true }
+        Self {
+            tension: true,
+            bending: true,
+            shear: true,
+        }
     }
 }
 
@@ -105,38 +109,60 @@ impl<'a> Sheet<'a> {
     #[must_use]
     pub fn new(lattice: &Lattice, fabric: &'a Fabric, laws: Laws, clamps: &[Clamp]) -> Self {
         let direction = |yarn| direction(fabric, yarn);
-        let rods = lattice.rods.iter().filter(|_| laws.tension).map(|rod| SheetRod {
-            nodes: rod.nodes,
-            yarn: rod.yarn,
-            rest: rod.rest,
-            width: rod.width,
-            floor: euler_load(direction(rod.yarn).bending, rod.rest),
-        });
-        let bends = lattice.bends.iter().filter(|_| laws.bending).map(|bend| SheetAngle {
-            nodes: bend.nodes,
-            stiffness: direction(bend.yarn).bending * bend.width / bend.length,
-            rest: bend.rest_angle,
-            bend: true,
-        });
+        let rods = lattice
+            .rods
+            .iter()
+            .filter(|_| laws.tension)
+            .map(|rod| SheetRod {
+                nodes: rod.nodes,
+                yarn: rod.yarn,
+                rest: rod.rest,
+                width: rod.width,
+                floor: euler_load(direction(rod.yarn).bending, rod.rest),
+            });
+        let bends = lattice
+            .bends
+            .iter()
+            .filter(|_| laws.bending)
+            .map(|bend| SheetAngle {
+                nodes: bend.nodes,
+                stiffness: direction(bend.yarn).bending * bend.width / bend.length,
+                rest: bend.rest_angle,
+                bend: true,
+            });
         let shear = 0.5 * (fabric.warp.shear + fabric.weft.shear);
-        let corners = lattice.corners.iter().filter(|_| laws.shear).map(|corner| SheetAngle {
-            nodes: corner.nodes,
-            stiffness: shear * corner.area,
-            rest: corner.rest_angle,
-            bend: false,
-        });
-        let angles = bends.chain(corners).filter(|angle| angle.stiffness > 0.0).collect();
-        let clamps = clamps.iter().filter(|_| laws.bending).map(|clamp| SheetClamp {
-            nodes: clamp.nodes,
-            slope: clamp.slope,
-            stiffness: 2.0 * direction(clamp.yarn).bending * clamp.width / clamp.length,
-        });
+        let corners = lattice
+            .corners
+            .iter()
+            .filter(|_| laws.shear)
+            .map(|corner| SheetAngle {
+                nodes: corner.nodes,
+                stiffness: shear * corner.area,
+                rest: corner.rest_angle,
+                bend: false,
+            });
+        let angles = bends
+            .chain(corners)
+            .filter(|angle| angle.stiffness > 0.0)
+            .collect();
+        let clamps = clamps
+            .iter()
+            .filter(|_| laws.bending)
+            .map(|clamp| SheetClamp {
+                nodes: clamp.nodes,
+                slope: clamp.slope,
+                stiffness: 2.0 * direction(clamp.yarn).bending * clamp.width / clamp.length,
+            });
         let mut sheet = Self {
             fabric,
             rods: rods.collect(),
             angles,
             clamps: clamps.collect(),
-            weights: lattice.area.iter().map(|area| area * fabric.weight).collect(),
+            weights: lattice
+                .area
+                .iter()
+                .map(|area| area * fabric.weight)
+                .collect(),
             roles: Vec::new(),
             first_role: Vec::new(),
         };
@@ -171,8 +197,11 @@ impl<'a> Sheet<'a> {
             [[a, b], [b, c], [a, c]]
         });
         let clamps = self.clamps.iter().map(|clamp| clamp.nodes);
-        let mut pairs: Vec<[u32; 2]> =
-            rods.chain(angles).chain(clamps).map(|[a, b]| [a.min(b), a.max(b)]).collect();
+        let mut pairs: Vec<[u32; 2]> = rods
+            .chain(angles)
+            .chain(clamps)
+            .map(|[a, b]| [a.min(b), a.max(b)])
+            .collect();
         pairs.sort_unstable();
         pairs.dedup();
         pairs
@@ -201,8 +230,11 @@ impl<'a> Sheet<'a> {
     /// The force on every node [gf].
     #[must_use]
     pub fn forces(&self, at: &[Vec3]) -> Vec<Vec3> {
-        let mut forces: Vec<Vec3> =
-            self.weights.iter().map(|weight| Vec3::new(0.0, 0.0, -weight)).collect();
+        let mut forces: Vec<Vec3> = self
+            .weights
+            .iter()
+            .map(|weight| Vec3::new(0.0, 0.0, -weight))
+            .collect();
         for rod in &self.rods {
             let pull = self.law(rod).pull(&rod.along(at));
             forces[rod.nodes[0] as usize] += pull;
@@ -234,7 +266,11 @@ impl<'a> Sheet<'a> {
             add(b, b, &block);
             add(a, b, &-block);
         }
-        let blocks_of = if positive { turn_stiffness_positive } else { turn_stiffness };
+        let blocks_of = if positive {
+            turn_stiffness_positive
+        } else {
+            turn_stiffness
+        };
         for angle in &self.angles {
             let (u, v) = angle.rods(at);
             let blocks = blocks_of(&u, &v, angle.stiffness, angle.rest);
@@ -328,7 +364,12 @@ impl<'a> Sheet<'a> {
 
     fn law(&self, rod: &SheetRod) -> RodLaw<'a> {
         let tension = &direction(self.fabric, rod.yarn).tension;
-        RodLaw { tension, rest: rod.rest, width: rod.width, floor: rod.floor }
+        RodLaw {
+            tension,
+            rest: rod.rest,
+            width: rod.width,
+            floor: rod.floor,
+        }
     }
 
     fn roles_of(&self, node: usize) -> &[Role] {
@@ -374,7 +415,11 @@ impl SheetAngle {
     /// The two rods: before and after a bend's node; from a corner's node.
     fn rods(&self, at: &[Vec3]) -> (Vec3, Vec3) {
         let [a, b, c] = self.nodes.map(|node| at[node as usize]);
-        if self.bend { (b - a, c - b) } else { (b - a, c - a) }
+        if self.bend {
+            (b - a, c - b)
+        } else {
+            (b - a, c - a)
+        }
     }
 
     /// How u and v change with each of the three nodes.

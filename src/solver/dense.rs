@@ -69,7 +69,9 @@ fn update_trailing(matrix: &mut [f64], order: usize, start: usize, width: usize)
 fn pack(matrix: &[f64], order: usize, start: usize, width: usize, first: usize) -> Vec<f64> {
     let strips = (order - first).div_ceil(TILE);
     let mut packed = vec![0.0; strips * width * TILE];
-    for (k, column) in matrix[start * order..(start + width) * order].chunks_exact(order).enumerate()
+    for (k, column) in matrix[start * order..(start + width) * order]
+        .chunks_exact(order)
+        .enumerate()
     {
         for (row, value) in column[first..].iter().enumerate() {
             packed[(row / TILE * width + k) * TILE + row % TILE] = *value;

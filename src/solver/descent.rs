@@ -1,10 +1,8 @@
 //! Coarse to fine: the same cloth cut ever finer, each cut starting where the last came to rest.
 
 use super::{
-    ForceModel, Level as LevelWork, Problem, Progress, Settings, Settled, Unsolvable,
-    joint::Joint,
-    level::Level,
-    start::Start,
+    ForceModel, Level as LevelWork, Problem, Progress, Settings, Settled, Unsolvable, joint::Joint,
+    level::Level, start::Start,
 };
 use crate::{
     certificate::{Case, certify, drape_shape, greatest_residual},
@@ -38,10 +36,17 @@ pub(super) fn descend(
     Start::new(problem, finest)?.check(problem, finest)?;
     let mut before: Option<(&Lattice, Vec<Vec3>)> = None;
     let mut work = Vec::new();
-    let mut run = Run { watch, settings, levels: lattices.len(), stopped: false };
+    let mut run = Run {
+        watch,
+        settings,
+        levels: lattices.len(),
+        stopped: false,
+    };
     for (number, lattice) in lattices.iter().enumerate() {
         let mut start = Start::new(problem, lattice)?;
-        start.fall(problem, &surface, lattice).ok_or(Unsolvable::Falls)?;
+        start
+            .fall(problem, &surface, lattice)
+            .ok_or(Unsolvable::Falls)?;
         let mut level = open(problem, lattice, &start, surface);
         if let Some((coarse, rest)) = &before {
             level.at = carry_over(coarse, rest, lattice, &start, &level.at);
@@ -79,7 +84,11 @@ fn cuts(problem: &Problem) -> Result<Vec<Lattice>, Unsolvable> {
     let finest = problem.piece.cut(problem.piece.pitch)?;
     let mut lattices = vec![finest];
     let mut pitch = problem.piece.pitch;
-    while lattices.last().is_some_and(|lattice| lattice.cells.len() > 200) && lattices.len() < 8 {
+    while lattices
+        .last()
+        .is_some_and(|lattice| lattice.cells.len() > 200)
+        && lattices.len() < 8
+    {
         pitch *= 2.0;
         if let Ok(lattice) = problem.piece.cut(pitch) {
             lattices.push(lattice);
@@ -101,7 +110,12 @@ fn open<'a>(
     let colours = lattice
         .colours()
         .into_iter()
-        .map(|nodes| nodes.into_iter().filter(|node| !start.held[*node as usize]).collect())
+        .map(|nodes| {
+            nodes
+                .into_iter()
+                .filter(|node| !start.held[*node as usize])
+                .collect()
+        })
         .collect();
     Level {
         lattice,
@@ -152,7 +166,10 @@ fn push_out(level: &mut Level<'_>, surface: &Surface) {
         }
         for _ in 0..3 {
             let nears = level.bodies.near(&level.at[node], 0.0);
-            let Some(deepest) = nears.iter().min_by(|a, b| a.distance.total_cmp(&b.distance)) else {
+            let Some(deepest) = nears
+                .iter()
+                .min_by(|a, b| a.distance.total_cmp(&b.distance))
+            else {
                 break;
             };
             level.at[node] += deepest.normal * (surface.node_reach() - deepest.distance);
@@ -199,8 +216,9 @@ impl Run<'_> {
                 self.stopped = true;
                 break;
             }
-            level.look(0.8 * pitch, (2.0 * made).clamp(0.002, 0.1));
             let t0 = std::time::Instant::now();
+            level.look(0.8 * pitch, (2.0 * made).clamp(0.002, 0.1));
+            let tl = t0.elapsed().as_secs_f64();
             for _ in 0..SWEEPS {
                 level.sweep();
                 level.touches.look_at_loads(&level.at);
@@ -212,7 +230,20 @@ impl Run<'_> {
             made = step.made;
             remaining = step.asked;
             if std::env::var_os("TRACE").is_some() {
-                eprintln!("L{number} n{} r{round} asked {:.3e} made {:.3e} exact {} shift {:.2e} pat {} E {e0:.8} {:.8} res {residual:.2e} touches {}", level.at.len(), step.asked, step.made, step.exact, joint.shift, joint.patience, level.energy(&level.at), level.touches.list().len()); eprintln!("   sweeps {t1:.3} joint {:.3}", t0.elapsed().as_secs_f64()-t1);
+                eprintln!(
+                    "L{number} n{} r{round} asked {:.3e} made {:.3e} exact {} shift {:.2e} E {e0:.8} {:.8} res {residual:.2e} touches {}",
+                    level.at.len(),
+                    step.asked,
+                    step.made,
+                    step.exact,
+                    joint.shift,
+                    level.energy(&level.at),
+                    level.touches.list().len()
+                );
+                eprintln!(
+                    "   look {tl:.3} sweeps {t1:.3} joint {:.3}",
+                    t0.elapsed().as_secs_f64() - t1
+                );
             }
             let near = step.exact && step.asked < COARSE_ENOUGH * pitch;
             if !last && (step.asked < COARSE_ENOUGH * pitch || round > 30) {
@@ -231,7 +262,11 @@ impl Run<'_> {
 
 /// Carries the holds to where they belong, a part of a pitch at a time.
 fn carry_holds(level: &mut Level<'_>, joint: &mut Joint, start: &Start) {
-    let way = start.carry.iter().map(|(_, carry)| carry.norm()).fold(0.0, f64::max);
+    let way = start
+        .carry
+        .iter()
+        .map(|(_, carry)| carry.norm())
+        .fold(0.0, f64::max);
     let steps = (way / (0.4 * level.lattice.pitch)).ceil() as usize;
     for _ in 0..steps {
         for (node, carry) in &start.carry {
@@ -254,7 +289,10 @@ fn finish(
     remaining: f64,
 ) -> Settled {
     let certificate = certify(case, &level.at, settings.tolerance, remaining);
-    let node_updates = levels.iter().map(|level| (level.nodes * level.sweeps) as u64).sum();
+    let node_updates = levels
+        .iter()
+        .map(|level| (level.nodes * level.sweeps) as u64)
+        .sum();
     Settled {
         lattice: level.lattice.clone(),
         contact: level.touches.loads(&level.at),

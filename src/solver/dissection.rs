@@ -39,7 +39,10 @@ impl Neighbours {
         for node in 0..nodes {
             first[node + 1] += first[node];
         }
-        Self { first, list: both.into_iter().map(|[_, other]| other).collect() }
+        Self {
+            first,
+            list: both.into_iter().map(|[_, other]| other).collect(),
+        }
     }
 
     /// The nodes that share a force with this one, in rising order.
@@ -57,7 +60,10 @@ pub(super) fn dissect(free: Vec<u32>, coordinates: &[Vec2], neighbours: &Neighbo
 
 fn halve(nodes: Vec<u32>, coordinates: &[Vec2], neighbours: &Neighbours, side: &mut [u8]) -> Part {
     if nodes.len() <= LEAF {
-        return Part { nodes, halves: Vec::new() };
+        return Part {
+            nodes,
+            halves: Vec::new(),
+        };
     }
     let axis = longer_axis(&nodes, coordinates);
     let mut sorted = nodes;
@@ -79,7 +85,10 @@ fn halve(nodes: Vec<u32>, coordinates: &[Vec2], neighbours: &Neighbours, side: &
         .filter(|half| !half.is_empty())
         .map(|half| halve(half, coordinates, neighbours, side))
         .collect();
-    Part { nodes: parting, halves }
+    Part {
+        nodes: parting,
+        halves,
+    }
 }
 
 fn longer_axis(nodes: &[u32], coordinates: &[Vec2]) -> usize {

@@ -69,9 +69,15 @@ fn number(part: &Part, rank: &mut [u32], next: &mut u32) {
 
 impl Front {
     fn new(part: Part, neighbours: &Neighbours, rank: &[u32]) -> Self {
-        let halves: Vec<Self> =
-            part.halves.into_iter().map(|half| Self::new(half, neighbours, rank)).collect();
-        let last = part.nodes.iter().chain(halves.iter().flat_map(|half| &half.nodes[..half.own]));
+        let halves: Vec<Self> = part
+            .halves
+            .into_iter()
+            .map(|half| Self::new(half, neighbours, rank))
+            .collect();
+        let last = part
+            .nodes
+            .iter()
+            .chain(halves.iter().flat_map(|half| &half.nodes[..half.own]));
         let last = last.map(|node| rank[*node as usize]).max().unwrap_or(0);
         let later = |node: &u32| rank[*node as usize] != u32::MAX && rank[*node as usize] > last;
         let mut border: Vec<u32> = part
@@ -94,14 +100,20 @@ impl Front {
                 (half, places)
             })
             .collect();
-        Self { nodes, own, halves: placed }
+        Self {
+            nodes,
+            own,
+            halves: placed,
+        }
     }
 }
 
 /// Where each of `some` stands in `all`, both in order of elimination.
 fn places(some: &[u32], all: &[u32], rank: &[u32]) -> Vec<u32> {
     some.iter()
-        .map(|node| all.partition_point(|other| rank[*other as usize] < rank[*node as usize]) as u32)
+        .map(|node| {
+            all.partition_point(|other| rank[*other as usize] < rank[*node as usize]) as u32
+        })
         .collect()
 }
 
@@ -144,7 +156,13 @@ fn factor(front: &Front, stiffness: &Stiffness, rank: &[u32]) -> Option<(Factore
     matrix.truncate(order * own);
     matrix.shrink_to_fit();
     let halves = halves.into_iter().map(|(factored, _)| factored).collect();
-    Some((Factored { columns: matrix, halves }, rest))
+    Some((
+        Factored {
+            columns: matrix,
+            halves,
+        },
+        rest,
+    ))
 }
 
 type Halves = Vec<(Factored, Vec<f64>)>;
@@ -155,11 +173,16 @@ fn factor_halves(
     rank: &[u32],
 ) -> Option<Halves> {
     if let [(one, _), (other, _)] = halves {
-        let (one, other) =
-            threads::both(|| factor(one, stiffness, rank), || factor(other, stiffness, rank));
+        let (one, other) = threads::both(
+            || factor(one, stiffness, rank),
+            || factor(other, stiffness, rank),
+        );
         return Some(vec![one?, other?]);
     }
-    halves.iter().map(|(half, _)| factor(half, stiffness, rank)).collect()
+    halves
+        .iter()
+        .map(|(half, _)| factor(half, stiffness, rank))
+        .collect()
 }
 
 /// Puts the front's own blocks of the stiffness in place.
@@ -195,7 +218,9 @@ fn extend_add(matrix: &mut [f64], order: usize, rest: &[f64], places: &[u32]) {
 /// The Schur complement of the border.
 fn border_of(matrix: &[f64], order: usize, own: usize) -> Vec<f64> {
     let columns = matrix[own * order..].chunks_exact(order);
-    columns.flat_map(|column| column[own..].iter().copied()).collect()
+    columns
+        .flat_map(|column| column[own..].iter().copied())
+        .collect()
 }
 
 fn forward(front: &Front, factored: &Factored, values: &mut [Vec3]) {
@@ -217,7 +242,12 @@ fn forward(front: &Front, factored: &Factored, values: &mut [Vec3]) {
 fn backward(front: &Front, factored: &Factored, values: &mut [Vec3]) {
     let order = 3 * front.nodes.len();
     let mut local = gather(&front.nodes, values);
-    for (k, column) in factored.columns.chunks_exact(order.max(1)).enumerate().rev() {
+    for (k, column) in factored
+        .columns
+        .chunks_exact(order.max(1))
+        .enumerate()
+        .rev()
+    {
         let mut sum = local[k];
         for (entry, factor) in local[k + 1..].iter().zip(&column[k + 1..]) {
             sum -= entry * factor;
@@ -231,7 +261,10 @@ fn backward(front: &Front, factored: &Factored, values: &mut [Vec3]) {
 }
 
 fn gather(nodes: &[u32], values: &[Vec3]) -> Vec<f64> {
-    nodes.iter().flat_map(|node| values[*node as usize].iter().copied().collect::<Vec<_>>()).collect()
+    nodes
+        .iter()
+        .flat_map(|node| values[*node as usize].iter().copied().collect::<Vec<_>>())
+        .collect()
 }
 
 fn scatter(nodes: &[u32], local: &[f64], values: &mut [Vec3]) {

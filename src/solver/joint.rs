@@ -25,8 +25,8 @@ pub(super) struct Joint {
     pub(super) stiffness: Stiffness,
     /// λ: stiffness per weight [1/cm].
     pub(super) shift: f64,
-    /// Steps to go before the exact matrix is tried again.
-    pub(super) patience: usize,
+    /// Whether the last step was short: rest may be near, and the exact matrix is tried.
+    pub(super) near: bool,
 }
 
 /// What a joint step came to.
@@ -43,17 +43,28 @@ pub(super) struct Step {
 impl Joint {
     pub(super) fn new(level: &Level<'_>) -> Self {
         let (plan, stiffness) = level.plan();
-        Self { plan, stiffness, shift: 4.0 / level.lattice.pitch, patience: 0 }
+        Self {
+            plan,
+            stiffness,
+            shift: 4.0 / level.lattice.pitch,
+            near: false,
+        }
     }
 
     /// Assembles the matrix at the level's positions.
     fn assemble(&mut self, level: &Level<'_>, positive: bool) {
         let matrix = &mut self.stiffness;
         matrix.clear();
-        level.sheet.stiffness(&level.at, positive, &mut |row, column, block| {
-            matrix.add(row, column, block);
-        });
-        level.touches.stiffness(&level.at, &mut |row, column, block| matrix.add(row, column, block));
+        level
+            .sheet
+            .stiffness(&level.at, positive, &mut |row, column, block| {
+                matrix.add(row, column, block);
+            });
+        level
+            .touches
+            .stiffness(&level.at, &mut |row, column, block| {
+                matrix.add(row, column, block)
+            });
         for (node, weight) in level.sheet.weights().iter().enumerate() {
             let block = Mat3::identity() * (weight * self.shift);
             matrix.add(node as u32, node as u32, &block);
@@ -66,7 +77,7 @@ impl Joint {
         if self.shift < least {
             self.shift = 0.0;
         }
-        if self.patience == 0 {
+        if self.near {
             for _ in 0..3 {
                 self.assemble(level, false);
                 if let Some(factor) = Factor::new(&self.plan, &self.stiffness) {
@@ -74,9 +85,7 @@ impl Joint {
                 }
                 self.shift = (self.shift * 5.0).max(4.0 * least);
             }
-            self.patience = 3;
         }
-        self.patience -= 1;
         self.shift = self.shift.max(least);
         self.assemble(level, true);
         Some((Factor::new(&self.plan, &self.stiffness)?, false))
@@ -89,9 +98,14 @@ impl Joint {
         let moves = factor.solve(&self.plan, &forces);
         level.joint_steps += 1;
         let asked = longest(&moves);
+        self.near = asked < NEAR * level.lattice.pitch;
         if !asked.is_finite() {
             self.shift = self.shift.max(1.0) * 10.0;
-            return Some(Step { asked: f64::INFINITY, made: 0.0, exact: false });
+            return Some(Step {
+                asked: f64::INFINITY,
+                made: 0.0,
+                exact: false,
+            });
         }
         let cap = (LONGEST_MOVE * level.lattice.pitch / asked.max(1e-300)).min(1.0);
         let made = self.descend(level, &factor, &moves, cap);
@@ -106,7 +120,11 @@ impl Joint {
         for halvings in 0..8 {
             let to = self.corrected(level, factor, moves, part);
             if level.energy(&to) <= before + noise {
-                let made = to.iter().zip(&level.at).map(|(to, at)| (to - at).norm()).fold(0.0, f64::max);
+                let made = to
+                    .iter()
+                    .zip(&level.at)
+                    .map(|(to, at)| (to - at).norm())
+                    .fold(0.0, f64::max);
                 level.at = to;
                 self.learn(halvings, cap);
                 return made;
@@ -119,12 +137,19 @@ impl Joint {
 
     /// A part of the step, and after it what the same factors say of the forces that turning has
     /// raised: rods that a straight move lengthened come back to their length.
-    fn corrected(&self, level: &Level<'_>, factor: &Factor, moves: &[Vec3], part: f64) -> Vec<Vec3> {
+    fn corrected(
+        &self,
+        level: &Level<'_>,
+        factor: &Factor,
+        moves: &[Vec3],
+        part: f64,
+    ) -> Vec<Vec3> {
         let mut to = level.freely(|node| moves[node] * part);
         let mut energy = level.energy(&to);
         for _ in 0..CORRECTIONS {
             let answer = factor.solve(&self.plan, &level.forces(&to));
-            let way = |node: usize| to[node] - level.at[node] + answer[node] - moves[node] * (1.0 - part);
+            let way =
+                |node: usize| to[node] - level.at[node] + answer[node] - moves[node] * (1.0 - part);
             let next = level.freely(way);
             let lower = level.energy(&next);
             if lower.is_nan() || lower >= energy {
@@ -145,11 +170,16 @@ impl Joint {
     }
 }
 
+/// A step that asks for less than this part of a pitch is short.
+const NEAR: f64 = 0.1;
 /// Corrections after a joint step: each costs a tenth of the factors.
 const CORRECTIONS: usize = 3;
 /// Below this λ times pitch the shift is dropped.
 const LEAST_SHIFT: f64 = 0.01;
 
 pub(super) fn longest(moves: &[Vec3]) -> f64 {
-    moves.iter().map(Vec3::norm).fold(0.0, |longest, way| if way <= longest { longest } else { way })
+    moves.iter().map(Vec3::norm).fold(
+        0.0,
+        |longest, way| if way <= longest { longest } else { way },
+    )
 }

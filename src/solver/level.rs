@@ -5,14 +5,7 @@ use super::{
     factor::Plan,
     stiffness::Stiffness,
 };
-use crate::{
-    body::Bodies,
-    contact::Touches,
-    forces::Sheet,
-    lattice::Lattice,
-    math::Vec3,
-    threads,
-};
+use crate::{body::Bodies, contact::Touches, forces::Sheet, lattice::Lattice, math::Vec3, threads};
 
 /// The state of one level.
 #[derive(Debug)]
@@ -46,7 +39,9 @@ impl<'a> Level<'a> {
         pairs.sort_unstable();
         pairs.dedup();
         let neighbours = Neighbours::new(nodes, &pairs);
-        let free = (0..nodes as u32).filter(|node| !self.held[*node as usize]).collect();
+        let free = (0..nodes as u32)
+            .filter(|node| !self.held[*node as usize])
+            .collect();
         let parts = dissect(free, &self.lattice.coordinates, &neighbours);
         let plan = Plan::new(parts, &neighbours, nodes);
         let stiffness = Stiffness::new(&neighbours, &plan.rank);
@@ -78,7 +73,9 @@ impl<'a> Level<'a> {
 
     /// Every node moved by `way` of it, as far as bodies leave free.
     pub(super) fn freely(&self, way: impl Fn(usize) -> Vec3 + Sync + Send) -> Vec<Vec3> {
-        threads::map(self.at.len(), |node| self.free_way(node, self.at[node] + way(node)))
+        threads::map(self.at.len(), |node| {
+            self.free_way(node, self.at[node] + way(node))
+        })
     }
 
     /// Where a node may go instead of `to`: no farther than the first surface in its way.
@@ -88,6 +85,10 @@ impl<'a> Level<'a> {
             return to;
         }
         let free = self.bodies.free_way(&from, &to);
-        if free < 1.0 { from + (to - from) * (0.9 * free) } else { to }
+        if free < 1.0 {
+            from + (to - from) * (0.9 * free)
+        } else {
+            to
+        }
     }
 }

@@ -1,12 +1,7 @@
 //! Where a drape begins: the flat cloth in its place, its holds, and a breath of disorder.
 
 use super::{Grip, Problem, Unsolvable};
-use crate::{
-    contact::Surface,
-    forces::Clamp,
-    lattice::Lattice,
-    math::Vec3,
-};
+use crate::{contact::Surface, forces::Clamp, lattice::Lattice, math::Vec3};
 
 /// The problem on one lattice.
 #[derive(Clone, Debug)]
@@ -37,7 +32,12 @@ impl Start {
             })
             .collect();
         let nodes = lattice.coordinates.len();
-        let mut start = Self { at, held: vec![false; nodes], carry: Vec::new(), clamps: Vec::new() };
+        let mut start = Self {
+            at,
+            held: vec![false; nodes],
+            carry: Vec::new(),
+            clamps: Vec::new(),
+        };
         let mut clamped = vec![false; nodes];
         for (index, hold) in problem.holds.iter().enumerate() {
             for node in gripped(problem, lattice, index)? {
@@ -91,7 +91,12 @@ impl Start {
 
     /// Lets a cloth that nothing holds fall until it is about to touch; `None` where it falls for
     /// ever.
-    pub(super) fn fall(&mut self, problem: &Problem, surface: &Surface, lattice: &Lattice) -> Option<()> {
+    pub(super) fn fall(
+        &mut self,
+        problem: &Problem,
+        surface: &Surface,
+        lattice: &Lattice,
+    ) -> Option<()> {
         if self.held.iter().any(|held| *held) {
             return Some(());
         }
@@ -129,7 +134,11 @@ fn gripped(problem: &Problem, lattice: &Lattice, index: usize) -> Result<Vec<u32
         Grip::Edge(edge) => Ok(problem.piece.edge_nodes(lattice, edge)),
         Grip::Point(point) => match lattice.nearest_node(problem.piece.to_cloth(point)) {
             Some((node, distance)) if distance <= 1.01 * lattice.pitch => Ok(vec![node]),
-            _ => Err(Unsolvable::HoldOutside { index: index + 1, x: point.x, y: point.y }),
+            _ => Err(Unsolvable::HoldOutside {
+                index: index + 1,
+                x: point.x,
+                y: point.y,
+            }),
         },
     }
 }

@@ -29,7 +29,12 @@ impl Stiffness {
             first.push(columns.len() as u32);
         }
         let blocks = vec![Mat3::zeros(); columns.len()];
-        Self { first, columns, blocks, rank: rank.to_vec() }
+        Self {
+            first,
+            columns,
+            blocks,
+            rank: rank.to_vec(),
+        }
     }
 
     /// All blocks to zero.
@@ -50,14 +55,17 @@ impl Stiffness {
         let columns = &self.columns[start..self.first[row as usize + 1] as usize];
         if let Some(place) = columns.iter().position(|other| *other == column) {
             let target = &mut self.blocks[start + place];
-            if turned { *target += block.transpose() } else { *target += block }
+            if turned {
+                *target += block.transpose()
+            } else {
+                *target += block
+            }
         }
     }
 
     /// The later nodes that a node is joined with, itself first, and the blocks.
     pub(super) fn row(&self, node: u32) -> (&[u32], &[Mat3]) {
-        let range =
-            self.first[node as usize] as usize..self.first[node as usize + 1] as usize;
+        let range = self.first[node as usize] as usize..self.first[node as usize + 1] as usize;
         (&self.columns[range.clone()], &self.blocks[range])
     }
 }

@@ -39,7 +39,9 @@ impl Level<'_> {
         let (push, block) = self.touches.pull(node, &self.at);
         let floor = self.sheet.weights()[node] / self.lattice.pitch;
         let stiffness = pull.stiffness + block + Mat3::identity() * floor;
-        let Some(way) = solve(&stiffness, &(pull.force + push)) else { return here };
+        let Some(way) = solve(&stiffness, &(pull.force + push)) else {
+            return here;
+        };
         let longest = LONGEST_MOVE * self.lattice.pitch;
         let way = way * (longest / way.norm().max(longest));
         self.free_way(node, here + way)
