@@ -215,6 +215,24 @@ impl Touches {
         }
     }
 
+    /// Contact projection: brings sites that a long move took deep into the skin back to where they
+    /// press little harder than before. `may_move` says which nodes may be moved for it.
+    pub fn bring_back(&self, from: &[Vec3], to: &mut [Vec3], may_move: impl Fn(usize) -> bool) {
+        for touch in &self.touches {
+            let depth = |at: &[Vec3]| touch.top - touch.normal.dot(&touch.site.at(at));
+            let excess = depth(to) - depth(from).max(0.0) - touch.skin.depth;
+            if excess <= 0.0 {
+                continue;
+            }
+            let square: f64 = touch.site.shares().map(|(_, weight)| weight * weight).sum();
+            for (node, weight) in touch.site.shares() {
+                if may_move(node as usize) {
+                    to[node as usize] += touch.normal * (excess * weight / square);
+                }
+            }
+        }
+    }
+
     /// Energy of all touches [gf·cm].
     #[must_use]
     pub fn energy(&self, at: &[Vec3]) -> f64 {

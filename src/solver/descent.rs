@@ -211,40 +211,21 @@ impl Run<'_> {
                 nodes: level.at.len(),
                 sweeps: level.sweeps,
                 residual,
+                remaining_move: remaining,
             };
             if self.stopped || !(self.watch)(&progress) {
                 self.stopped = true;
                 break;
             }
-            let t0 = std::time::Instant::now();
             level.look(0.8 * pitch, (2.0 * made).clamp(0.002, 0.1));
-            let tl = t0.elapsed().as_secs_f64();
             for _ in 0..SWEEPS {
                 level.sweep();
                 level.touches.look_at_loads(&level.at);
             }
             level.look(0.8 * pitch, (2.0 * made).clamp(0.002, 0.1));
-            let t1 = t0.elapsed().as_secs_f64();
-            let e0 = level.energy(&level.at);
             let Some(step) = joint.step(level) else { break };
             made = step.made;
             remaining = step.asked;
-            if std::env::var_os("TRACE").is_some() {
-                eprintln!(
-                    "L{number} n{} r{round} asked {:.3e} made {:.3e} exact {} shift {:.2e} E {e0:.8} {:.8} res {residual:.2e} touches {}",
-                    level.at.len(),
-                    step.asked,
-                    step.made,
-                    step.exact,
-                    joint.shift,
-                    level.energy(&level.at),
-                    level.touches.list().len()
-                );
-                eprintln!(
-                    "   look {tl:.3} sweeps {t1:.3} joint {:.3}",
-                    t0.elapsed().as_secs_f64() - t1
-                );
-            }
             let near = step.exact && step.asked < COARSE_ENOUGH * pitch;
             if !last && (step.asked < COARSE_ENOUGH * pitch || round > 30) {
                 break;
