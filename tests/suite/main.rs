@@ -17,3 +17,4 @@ mod laws_paper;
 mod layers;
 mod specimen;
 mod trial;
+mod verification;
