@@ -10,6 +10,7 @@
 mod bad_files;
 mod bad_input;
 mod cli;
+mod friction;
 mod fuzz;
 mod laws;
 mod laws_contact;
