@@ -156,7 +156,12 @@ impl Touches {
             let position = at[node as usize];
             clear - (position - there).norm() - (position - here).norm()
         };
-        self.sites.site(number).nodes.into_iter().map(by_node).fold(f64::NEG_INFINITY, f64::max)
+        self.sites
+            .site(number)
+            .nodes
+            .into_iter()
+            .map(by_node)
+            .fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// How far from a surface a site begins to touch [cm].
