@@ -5,9 +5,10 @@ use crate::{lattice::Lattice, math::Vec3};
 /// A point of the cloth: a node, or a mean of the nodes of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site {
-    /// Nodes; a node's own site names it four times.
+    /// Nodes; a node's own site names it four times, a triangle's site one of them twice.
     pub nodes: [u32; 4],
-    /// Their weights, summing to 1; a node's own site has 1, 0, 0, 0.
+    /// Their weights, summing to 1; a node's own site has 1, 0, 0, 0. Where a node is named again
+    /// its weight is 0.
     pub weights: [f64; 4],
 }
 
@@ -22,7 +23,7 @@ pub struct Sites {
 }
 
 /// Samples of a cell stand no farther apart than this [cm], where 4 to 8 a side allow it.
-const SAMPLE_DISTANCE: f64 = 0.4;
+const SAMPLE_DISTANCE: f64 = 0.125;
 
 impl Sites {
     /// The sites of a lattice.
@@ -81,9 +82,10 @@ impl Sites {
         let place = |k: usize| (k as f64 + 0.5) / self.side as f64;
         let (u, v) = (place(sample % self.side), place(sample / self.side));
         let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v];
+        let nodes = self.cells[cell];
         Site {
-            nodes: self.cells[cell],
-            weights,
+            nodes,
+            weights: gathered(&nodes, weights),
         }
     }
 }
@@ -104,7 +106,19 @@ impl Site {
 
     /// Its nodes with weights that are not 0.
     pub fn shares(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        let count = if self.weights[0] == 1.0 { 1 } else { 4 };
-        self.nodes.iter().copied().zip(self.weights).take(count)
+        let shares = self.nodes.iter().copied().zip(self.weights);
+        shares.filter(|(_, weight)| *weight != 0.0)
     }
+}
+
+/// Weights with a triangle's repeated node named once: its stiffness is the square of all its
+/// weight, not the sum of the squares of its parts.
+fn gathered(nodes: &[u32; 4], mut weights: [f64; 4]) -> [f64; 4] {
+    for k in 1..4 {
+        if let Some(first) = (0..k).find(|first| nodes[*first] == nodes[k]) {
+            weights[first] += weights[k];
+            weights[k] = 0.0;
+        }
+    }
+    weights
 }

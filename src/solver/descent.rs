@@ -1,21 +1,21 @@
 //! Coarse to fine: the same cloth cut ever finer, each cut starting where the last came to rest.
 
 use super::{
-    ForceModel, Level as LevelWork, Problem, Progress, Settings, Settled, Unsolvable, joint::Joint,
-    level::Level, start::Start,
+    ForceModel, Level as LevelWork, Problem, Progress, Settings, Settled, Unsolvable,
+    carry::{carry_over, push_out},
+    film::Film,
+    level::Level,
+    rest::Run,
+    start::Start,
 };
 use crate::{
-    certificate::{Case, certify, drape_shape, greatest_residual},
+    certificate::{Case, certify, drape_shape},
     contact::{Sites, Surface, Touches},
     forces::Sheet,
     lattice::Lattice,
     math::Vec3,
 };
 
-/// Sweeps before each joint step: they settle what is near, it settles what is far.
-const SWEEPS: usize = 4;
-/// A coarse level is left when steps ask for less than this part of its pitch.
-const COARSE_ENOUGH: f64 = 0.05;
 /// Pressure that the skin answers, in weights of the cloth: what a few decimetres of cloth bring
 /// to a curved body.
 const SKIN_PRESSURE: f64 = 10.0;
@@ -27,11 +27,7 @@ pub(super) fn descend(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Settled, Unsolvable> {
     let lattices = cuts(problem)?;
-    let surface = Surface {
-        friction: problem.friction,
-        offset: 0.5 * problem.thickness,
-        pressure: SKIN_PRESSURE * problem.fabric.weight,
-    };
+    let surface = surface(problem);
     let finest = &lattices[lattices.len() - 1];
     Start::new(problem, finest)?.check(problem, finest)?;
     let mut before: Option<(&Lattice, Vec<Vec3>)> = None;
@@ -40,6 +36,7 @@ pub(super) fn descend(
         watch,
         settings,
         levels: lattices.len(),
+        film: Film::new(settings.frames),
         stopped: false,
     };
     for (number, lattice) in lattices.iter().enumerate() {
@@ -53,7 +50,6 @@ pub(super) fn descend(
         }
         start.disturb(&mut level.at, lattice, problem.seed);
         push_out(&mut level, &surface);
-        let first = before.is_none();
         let case = Case {
             lattice,
             fabric: &problem.fabric,
@@ -64,7 +60,7 @@ pub(super) fn descend(
             bodies: &problem.bodies,
             surface,
         };
-        let remaining = run.rest(&mut level, &case, &start, number, first);
+        let remaining = run.rest(&mut level, &case, &start, number);
         work.push(LevelWork {
             spacing: lattice.pitch,
             nodes: level.at.len(),
@@ -72,11 +68,33 @@ pub(super) fn descend(
             joint_steps: level.joint_steps,
         });
         if number + 1 == lattices.len() {
-            return Ok(finish(&case, level, work, settings, remaining));
+            let settled = finish(&case, level, work, settings, remaining);
+            return Ok(Settled {
+                frames: run.film.develop(&lattices),
+                ..settled
+            });
         }
         before = Some((lattice, level.at));
     }
     Err(Unsolvable::Falls)
+}
+
+/// Cuts the finest lattice and finds out whether a drape can begin.
+pub(super) fn prepare(problem: &Problem) -> Result<Lattice, Unsolvable> {
+    let lattice = problem.piece.cut(problem.piece.pitch)?;
+    let mut start = Start::new(problem, &lattice)?;
+    start.check(problem, &lattice)?;
+    let fallen = start.fall(problem, &surface(problem), &lattice);
+    fallen.ok_or(Unsolvable::Falls)?;
+    Ok(lattice)
+}
+
+fn surface(problem: &Problem) -> Surface {
+    Surface {
+        friction: problem.friction,
+        offset: 0.5 * problem.thickness,
+        pressure: SKIN_PRESSURE * problem.fabric.weight,
+    }
 }
 
 /// The lattices from coarse to fine. Cuts that would fall apart when coarse are left out.
@@ -128,156 +146,6 @@ fn open<'a>(
         own_only: problem.forces == ForceModel::Paper,
         sweeps: 0,
         joint_steps: 0,
-    }
-}
-
-/// Positions of a finer lattice on the shape of a coarser one; held nodes where they are carried.
-fn carry_over(
-    coarse: &Lattice,
-    rest: &[Vec3],
-    fine: &Lattice,
-    start: &Start,
-    flat: &[Vec3],
-) -> Vec<Vec3> {
-    let locator = coarse.locator();
-    let mut at: Vec<Vec3> = fine
-        .coordinates
-        .iter()
-        .map(|coordinate| {
-            let place = locator.locate(*coordinate);
-            let mut at = Vec3::zeros();
-            for (node, weight) in place.nodes.iter().zip(place.weights) {
-                at += rest[*node as usize] * weight;
-            }
-            at
-        })
-        .collect();
-    for (node, carry) in &start.carry {
-        at[*node as usize] = flat[*node as usize] + carry;
-    }
-    at
-}
-
-/// Brings free nodes that the finer cut put into a body back to its surface.
-fn push_out(level: &mut Level<'_>, surface: &Surface) {
-    for node in 0..level.at.len() {
-        if level.held[node] {
-            continue;
-        }
-        for _ in 0..3 {
-            let nears = level.bodies.near(&level.at[node], 0.0);
-            let Some(deepest) = nears
-                .iter()
-                .min_by(|a, b| a.distance.total_cmp(&b.distance))
-            else {
-                break;
-            };
-            level.at[node] += deepest.normal * (surface.node_reach() - deepest.distance);
-        }
-    }
-}
-
-/// A run under its watcher.
-struct Run<'w> {
-    watch: &'w mut dyn FnMut(&Progress) -> bool,
-    settings: &'w Settings,
-    levels: usize,
-    stopped: bool,
-}
-
-impl Run<'_> {
-    /// Brings one level to rest, or as near as the watcher allows. Returns the estimate of how
-    /// far the farthest node still is from rest [cm].
-    fn rest(
-        &mut self,
-        level: &mut Level<'_>,
-        case: &Case<'_>,
-        start: &Start,
-        number: usize,
-        first: bool,
-    ) -> f64 {
-        let mut joint = Joint::new(level);
-        if first {
-            carry_holds(level, &mut joint, start);
-        }
-        let last = number + 1 == self.levels;
-        let pitch = level.lattice.pitch;
-        let mut made = pitch;
-        let mut remaining = f64::INFINITY;
-        let mut residual = f64::INFINITY;
-        for round in 0.. {
-            let progress = Progress {
-                level: (number, self.levels),
-                nodes: level.at.len(),
-                sweeps: level.sweeps,
-                residual,
-            };
-            if self.stopped || !(self.watch)(&progress) {
-                self.stopped = true;
-                break;
-            }
-            let t0 = std::time::Instant::now();
-            level.look(0.8 * pitch, (2.0 * made).clamp(0.002, 0.1));
-            let tl = t0.elapsed().as_secs_f64();
-            for _ in 0..SWEEPS {
-                level.sweep();
-                level.touches.look_at_loads(&level.at);
-            }
-            level.look(0.8 * pitch, (2.0 * made).clamp(0.002, 0.1));
-            let t1 = t0.elapsed().as_secs_f64();
-            let e0 = level.energy(&level.at);
-            let Some(step) = joint.step(level) else { break };
-            made = step.made;
-            remaining = step.asked;
-            if std::env::var_os("TRACE").is_some() {
-                eprintln!(
-                    "L{number} n{} r{round} asked {:.3e} made {:.3e} exact {} shift {:.2e} E {e0:.8} {:.8} res {residual:.2e} touches {}",
-                    level.at.len(),
-                    step.asked,
-                    step.made,
-                    step.exact,
-                    joint.shift,
-                    level.energy(&level.at),
-                    level.touches.list().len()
-                );
-                eprintln!(
-                    "   look {tl:.3} sweeps {t1:.3} joint {:.3}",
-                    t0.elapsed().as_secs_f64() - t1
-                );
-            }
-            let near = step.exact && step.asked < COARSE_ENOUGH * pitch;
-            if !last && (step.asked < COARSE_ENOUGH * pitch || round > 30) {
-                break;
-            }
-            if last && (near || round % 8 == 7) {
-                residual = greatest_residual(case, &level.at);
-                if residual <= 0.5 * self.settings.tolerance && step.exact && step.asked < 1e-3 {
-                    break;
-                }
-            }
-        }
-        remaining
-    }
-}
-
-/// Carries the holds to where they belong, a part of a pitch at a time.
-fn carry_holds(level: &mut Level<'_>, joint: &mut Joint, start: &Start) {
-    let way = start
-        .carry
-        .iter()
-        .map(|(_, carry)| carry.norm())
-        .fold(0.0, f64::max);
-    let steps = (way / (0.4 * level.lattice.pitch)).ceil() as usize;
-    for _ in 0..steps {
-        for (node, carry) in &start.carry {
-            level.at[*node as usize] += carry / steps as f64;
-        }
-        level.look(level.lattice.pitch, 0.1);
-        for _ in 0..SWEEPS {
-            level.sweep();
-        }
-        level.look(level.lattice.pitch, 0.1);
-        joint.step(level);
     }
 }
 

@@ -4,10 +4,18 @@
 //! - `cli`: every command, what it prints and how it exits.
 //! - `bad_input`, `bad_files`: each slip gets its message and its exit code, and costs no file.
 //! - `fuzz`: no bytes make the readers panic.
+//! - `laws`, `laws_contact`, `laws_paper`: every law is the slope of its own energy, and stays
+//!   what it is wherever the cloth is and whichever way it is turned.
 
 mod bad_files;
 mod bad_input;
 mod cli;
+mod friction;
 mod fuzz;
+mod laws;
+mod laws_contact;
+mod laws_paper;
 mod layers;
+mod specimen;
 mod trial;
+mod verification;
