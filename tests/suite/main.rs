@@ -3,6 +3,8 @@
 //! - `layers`: modules name only what the code map allows.
 //! - `cli`: every command, what it prints and how it exits.
 //! - `bad_input`, `bad_files`: each slip gets its message and its exit code, and costs no file.
+//! - `scenes`: every scene is certified and looks as it did, in figures and in a picture.
+//! - `figures`: what the paper says of its figures is so, and the README gives the numbers.
 //! - `fuzz`: no bytes make the readers panic.
 //! - `laws`, `laws_contact`, `laws_paper`: every law is the slope of its own energy, and stays
 //!   what it is wherever the cloth is and whichever way it is turned.
@@ -10,12 +12,16 @@
 mod bad_files;
 mod bad_input;
 mod cli;
+mod figures;
 mod friction;
 mod fuzz;
 mod laws;
 mod laws_contact;
 mod laws_paper;
 mod layers;
+mod picture;
+mod scenes;
+mod solved;
 mod specimen;
 mod trial;
 mod verification;
