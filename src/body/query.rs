@@ -160,13 +160,13 @@ impl Bodies {
             return 1.0;
         };
         if part.nature() == Nature::Solid {
-            // Started inside: its reaction will bring it out.
-            if hit.time_of_impact <= 0.0 {
+            // Started inside: its reaction will bring it out, through the surface.
+            if holds(part, from) {
                 return 1.0;
             }
             let normal = Vec3::from(hit.normal);
             let shallow = |near: Near| near.distance > -SHALLOW && near.normal.dot(&normal) > 0.5;
-            if nearest(part, index, to, 0.0, DEEP).is_none_or(shallow) && part_holds_end(part, to) {
+            if nearest(part, index, to, 0.0, DEEP).is_none_or(shallow) && holds(part, to) {
                 return 1.0;
             }
         }
@@ -174,9 +174,9 @@ impl Bodies {
     }
 }
 
-/// Whether a move that passes into a solid also ends in it, instead of beyond it.
-fn part_holds_end(part: &Part, to: &Vec3) -> bool {
-    part.shape().contains_point(part.pose(), (*to).into())
+/// Whether a point is inside a solid.
+fn holds(part: &Part, point: &Vec3) -> bool {
+    part.shape().contains_point(part.pose(), (*point).into())
 }
 
 /// The nearest point of one part's surface, if within `reach` or if the point is inside, by no more

@@ -23,7 +23,7 @@ pub struct Sites {
 }
 
 /// Samples of a cell stand no farther apart than this [cm], where 4 to 8 a side allow it.
-const SAMPLE_DISTANCE: f64 = 0.4;
+const SAMPLE_DISTANCE: f64 = 0.125;
 
 impl Sites {
     /// The sites of a lattice.

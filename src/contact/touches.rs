@@ -59,9 +59,9 @@ const SKIN_DEPTH: f64 = 0.004;
 const REACH_BEYOND: f64 = 0.004;
 /// Slip at which friction reaches its limit [cm].
 const GIVE: f64 = 0.004;
-/// Samples between nodes begin to touch this far outside [cm]: a little inside, so that on a
-/// smooth body nodes carry and only edges and sharp features meet samples.
-const SAMPLE_REACH: f64 = -0.01;
+/// Samples between nodes begin to touch this far outside [cm]: less than nodes, so that on a
+/// smooth body nodes carry and edges and sharp features meet samples.
+const SAMPLE_REACH: f64 = 0.005;
 
 /// All touches, in order of site and part.
 #[derive(Clone, Debug)]
@@ -101,14 +101,16 @@ impl Touches {
         if bodies.parts().is_empty() {
             return;
         }
-        let found = threads::map(self.sites.len(), |number| {
-            let way = if self.sites.is_node(number) {
-                way
-            } else {
-                sample_way
-            };
-            self.look(number, at, bodies, way)
-        });
+        let nodes = at.len();
+        let mut found = threads::map(nodes, |node| self.look(node, at, bodies, way));
+        for (node, (clearance, _)) in found.iter().enumerate() {
+            if let Some(clearance) = clearance {
+                self.clearance[node] = *clearance;
+            }
+        }
+        found.extend(threads::map(self.sites.len() - nodes, |sample| {
+            self.look(nodes + sample, at, bodies, sample_way)
+        }));
         let mut fresh = Vec::with_capacity(self.touches.len());
         for (number, (clearance, nears)) in found.into_iter().enumerate() {
             if let Some(clearance) = clearance {
@@ -133,6 +135,9 @@ impl Touches {
         let reach = self.reach(number) + way;
         let here = self.sites.site(number).at(at);
         let (clear, there) = self.clearance[number];
+        if !self.sites.is_node(number) && self.clear_of(number, at, &here) > reach {
+            return (None, Vec::new());
+        }
         // Written so that a clearance never measured (at infinity) does not count.
         if clear - (here - there).norm() > reach {
             return (None, Vec::new());
@@ -142,6 +147,21 @@ impl Touches {
         let nearest = nears.iter().map(|near| near.distance).fold(wide, f64::min);
         nears.retain(|near| near.distance <= reach);
         (Some((nearest, here)), nears)
+    }
+
+    /// How far a sample is from any surface at least, by what its cell's nodes know [cm].
+    fn clear_of(&self, number: usize, at: &[Vec3], here: &Vec3) -> f64 {
+        let by_node = |node: u32| {
+            let (clear, there) = self.clearance[node as usize];
+            let position = at[node as usize];
+            clear - (position - there).norm() - (position - here).norm()
+        };
+        self.sites
+            .site(number)
+            .nodes
+            .into_iter()
+            .map(by_node)
+            .fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// How far from a surface a site begins to touch [cm].
@@ -211,6 +231,24 @@ impl Touches {
             let size = slip.norm();
             if size > touch.friction.give {
                 touch.anchor += slip * (1.0 - touch.friction.give / size);
+            }
+        }
+    }
+
+    /// Contact projection: brings sites that a long move took deep into the skin back to where they
+    /// press little harder than before. `may_move` says which nodes may be moved for it.
+    pub fn bring_back(&self, from: &[Vec3], to: &mut [Vec3], may_move: impl Fn(usize) -> bool) {
+        for touch in &self.touches {
+            let depth = |at: &[Vec3]| touch.top - touch.normal.dot(&touch.site.at(at));
+            let excess = depth(to) - depth(from).max(0.0) - touch.skin.depth;
+            if excess <= 0.0 {
+                continue;
+            }
+            let square: f64 = touch.site.shares().map(|(_, weight)| weight * weight).sum();
+            for (node, weight) in touch.site.shares() {
+                if may_move(node as usize) {
+                    to[node as usize] += touch.normal * (excess * weight / square);
+                }
             }
         }
     }

@@ -9,17 +9,15 @@ use crate::math::{Mat3, Vec3};
 const STEP: f64 = 1e-6;
 
 /// The ten forces and gravity on a node [gf], and minus their numerical derivative [gf/cm].
-///
-/// `at` is given back as it was.
-pub fn paper_forces(sheet: &Sheet<'_>, node: usize, at: &mut [Vec3]) -> Pull {
+#[must_use]
+pub fn paper_forces(sheet: &Sheet<'_>, node: usize, at: &[Vec3]) -> Pull {
     let here = at[node];
     let mut stiffness = Mat3::zeros();
     for axis in 0..3 {
-        at[node][axis] = here[axis] + STEP;
-        let ahead = sheet.force(node, at, true);
-        at[node][axis] = here[axis] - STEP;
-        let behind = sheet.force(node, at, true);
-        at[node] = here;
+        let mut step = Vec3::zeros();
+        step[axis] = STEP;
+        let ahead = sheet.force_with(node, &(here + step), at, true);
+        let behind = sheet.force_with(node, &(here - step), at, true);
         stiffness.set_column(axis, &((behind - ahead) / (2.0 * STEP)));
     }
     Pull {

@@ -335,12 +335,22 @@ impl<'a> Sheet<'a> {
     /// and corners.
     #[must_use]
     pub fn force(&self, node: usize, at: &[Vec3], own_only: bool) -> Vec3 {
+        self.force_with(node, &at[node], at, own_only)
+    }
+
+    /// The same with the node at `here` and all others where they are [gf].
+    #[must_use]
+    pub fn force_with(&self, node: usize, here: &Vec3, at: &[Vec3], own_only: bool) -> Vec3 {
+        let get = |other: u32| {
+            let other = other as usize;
+            if other == node { *here } else { at[other] }
+        };
         let mut force = Vec3::new(0.0, 0.0, -self.weights[node]);
         for role in self.roles_of(node) {
             match *role {
                 Role::Rod(index, end) => {
                     let rod = &self.rods[index as usize];
-                    let pull = self.law(rod).pull(&rod.along(at));
+                    let pull = self.law(rod).pull(&rod.along_by(&get));
                     force += pull * if end == 0 { 1.0 } else { -1.0 };
                 }
                 Role::Angle(index, place) => {
@@ -348,14 +358,15 @@ impl<'a> Sheet<'a> {
                     if own_only && angle.own_place() != place {
                         continue;
                     }
-                    let (u, v) = angle.rods(at);
+                    let (u, v) = angle.rods_by(&get);
                     let law = turn(&u, &v, angle.stiffness, angle.rest);
                     let (by_u, by_v) = angle.signs()[place as usize];
                     force -= law.by_u * by_u + law.by_v * by_v;
                 }
                 Role::Clamp(index) => {
                     let clamp = &self.clamps[index as usize];
-                    force -= turn(&clamp.slope, &clamp.along(at), clamp.stiffness, 0.0).by_v;
+                    let along = get(clamp.nodes[1]) - get(clamp.nodes[0]);
+                    force -= turn(&clamp.slope, &along, clamp.stiffness, 0.0).by_v;
                 }
             }
         }
@@ -407,14 +418,22 @@ impl<'a> Sheet<'a> {
 
 impl SheetRod {
     fn along(&self, at: &[Vec3]) -> Vec3 {
-        at[self.nodes[1] as usize] - at[self.nodes[0] as usize]
+        self.along_by(&|node| at[node as usize])
+    }
+
+    fn along_by(&self, get: &impl Fn(u32) -> Vec3) -> Vec3 {
+        get(self.nodes[1]) - get(self.nodes[0])
     }
 }
 
 impl SheetAngle {
     /// The two rods: before and after a bend's node; from a corner's node.
     fn rods(&self, at: &[Vec3]) -> (Vec3, Vec3) {
-        let [a, b, c] = self.nodes.map(|node| at[node as usize]);
+        self.rods_by(&|node| at[node as usize])
+    }
+
+    fn rods_by(&self, get: &impl Fn(u32) -> Vec3) -> (Vec3, Vec3) {
+        let [a, b, c] = self.nodes.map(get);
         if self.bend {
             (b - a, c - b)
         } else {

@@ -16,6 +16,14 @@ use crate::{
 const SWEEPS: usize = 4;
 /// A coarse level is left when steps ask for less than this part of its pitch.
 const COARSE_ENOUGH: f64 = 0.05;
+/// A drape whose joint steps ask for less than this [cm] is where it will be.
+const SETTLED: f64 = 1e-3;
+/// A node on a sharp feature may swing between two equilibria this near to each other [cm]: after
+/// as many rounds as patience lasts, either is accepted, and the swing is reported as the move
+/// that remains.
+const SWINGING: f64 = 0.02;
+/// Rounds of short steps before a swing is accepted.
+const PATIENCE: usize = 8;
 /// Pressure that the skin answers, in weights of the cloth: what a few decimetres of cloth bring
 /// to a curved body.
 const SKIN_PRESSURE: f64 = 10.0;
@@ -205,55 +213,50 @@ impl Run<'_> {
         let mut made = pitch;
         let mut remaining = f64::INFINITY;
         let mut residual = f64::INFINITY;
+        let mut settled_for = 0;
         for round in 0.. {
             let progress = Progress {
                 level: (number, self.levels),
                 nodes: level.at.len(),
                 sweeps: level.sweeps,
                 residual,
+                remaining_move: remaining,
             };
             if self.stopped || !(self.watch)(&progress) {
                 self.stopped = true;
                 break;
             }
-            let t0 = std::time::Instant::now();
             level.look(0.8 * pitch, (2.0 * made).clamp(0.002, 0.1));
-            let tl = t0.elapsed().as_secs_f64();
-            for _ in 0..SWEEPS {
+            let sweeps = if joint.near { 0 } else { SWEEPS };
+            for _ in 0..sweeps {
                 level.sweep();
                 level.touches.look_at_loads(&level.at);
             }
             level.look(0.8 * pitch, (2.0 * made).clamp(0.002, 0.1));
-            let t1 = t0.elapsed().as_secs_f64();
-            let e0 = level.energy(&level.at);
             let Some(step) = joint.step(level) else { break };
             made = step.made;
             remaining = step.asked;
-            if std::env::var_os("TRACE").is_some() {
-                eprintln!(
-                    "L{number} n{} r{round} asked {:.3e} made {:.3e} exact {} shift {:.2e} E {e0:.8} {:.8} res {residual:.2e} touches {}",
-                    level.at.len(),
-                    step.asked,
-                    step.made,
-                    step.exact,
-                    joint.shift,
-                    level.energy(&level.at),
-                    level.touches.list().len()
-                );
-                eprintln!(
-                    "   look {tl:.3} sweeps {t1:.3} joint {:.3}",
-                    t0.elapsed().as_secs_f64() - t1
-                );
-            }
-            let near = step.exact && step.asked < COARSE_ENOUGH * pitch;
             if !last && (step.asked < COARSE_ENOUGH * pitch || round > 30) {
                 break;
             }
-            if last && (near || round % 8 == 7) {
+            settled_for = if step.exact && step.asked < COARSE_ENOUGH * pitch {
+                settled_for + 1
+            } else {
+                0
+            };
+            if last && settled_for > 1 {
+                joint.finish(level);
                 residual = greatest_residual(case, &level.at);
-                if residual <= 0.5 * self.settings.tolerance && step.exact && step.asked < 1e-3 {
+                let still = if settled_for < PATIENCE {
+                    SETTLED
+                } else {
+                    SWINGING
+                };
+                if residual <= 0.5 * self.settings.tolerance && step.asked < still {
                     break;
                 }
+            } else if round % 8 == 7 {
+                residual = greatest_residual(case, &level.at);
             }
         }
         remaining

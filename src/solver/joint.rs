@@ -112,6 +112,17 @@ impl Joint {
         Some(Step { asked, made, exact })
     }
 
+    /// Steps on with the touches as they were last seen, where nothing but smooth laws is left and
+    /// steps converge quadratically.
+    pub(super) fn finish(&mut self, level: &mut Level<'_>) {
+        for _ in 0..FINISHING {
+            match self.step(level) {
+                Some(step) if step.exact && step.asked > FINISHED => (),
+                _ => break,
+            }
+        }
+    }
+
     /// Halves the step until the energy falls, and learns λ from how that went.
     fn descend(&mut self, level: &mut Level<'_>, factor: &Factor, moves: &[Vec3], cap: f64) -> f64 {
         let before = level.energy(&level.at);
@@ -172,6 +183,9 @@ impl Joint {
 
 /// A step that asks for less than this part of a pitch is short.
 const NEAR: f64 = 0.1;
+/// Most steps of a finish, and the move [cm] that ends it.
+const FINISHING: usize = 6;
+const FINISHED: f64 = 1e-7;
 /// Corrections after a joint step: each costs a tenth of the factors.
 const CORRECTIONS: usize = 3;
 /// Below this λ times pitch the shift is dropped.

@@ -71,11 +71,21 @@ impl<'a> Level<'a> {
         self.touches.look_at_loads(&self.at);
     }
 
-    /// Every node moved by `way` of it, as far as bodies leave free.
+    /// Every node moved by `way` of it, brought back where it pressed into
+    /// a body, and brought back where it pressed into
+    /// a body, and as far as bodies leave free.
     pub(super) fn freely(&self, way: impl Fn(usize) -> Vec3 + Sync + Send) -> Vec<Vec3> {
-        threads::map(self.at.len(), |node| {
-            self.free_way(node, self.at[node] + way(node))
-        })
+        let moved = |node: usize| {
+            if self.held[node] {
+                self.at[node]
+            } else {
+                self.at[node] + way(node)
+            }
+        };
+        let mut to = threads::map(self.at.len(), moved);
+        let free = |node: usize| !self.held[node];
+        self.touches.bring_back(&self.at, &mut to, free);
+        threads::map(to.len(), |node| self.free_way(node, to[node]))
     }
 
     /// Where a node may go instead of `to`: no farther than the first surface in its way.

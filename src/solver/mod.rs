@@ -104,6 +104,8 @@ pub struct Progress {
     pub sweeps: usize,
     /// Greatest residual so far known [-]; infinite before the first.
     pub residual: f64,
+    /// Longest move that the last joint step asked for [cm]; infinite before the first.
+    pub remaining_move: f64,
 }
 
 /// The work done on one level.

@@ -39,9 +39,14 @@ impl Level<'_> {
         let (push, block) = self.touches.pull(node, &self.at);
         let floor = self.sheet.weights()[node] / self.lattice.pitch;
         let stiffness = pull.stiffness + block + Mat3::identity() * floor;
-        let Some(way) = solve(&stiffness, &(pull.force + push)) else {
-            return here;
+        let force = pull.force + push;
+        // The paper's Jacobian lacks the reactions, and so symmetry.
+        let way = if self.own_only {
+            stiffness.lu().solve(&force)
+        } else {
+            solve(&stiffness, &force)
         };
+        let Some(way) = way else { return here };
         let longest = LONGEST_MOVE * self.lattice.pitch;
         let way = way * (longest / way.norm().max(longest));
         self.free_way(node, here + way)
@@ -49,10 +54,7 @@ impl Level<'_> {
 
     fn pull(&self, node: usize) -> Pull {
         if self.own_only {
-            // Numerical derivatives need the node moved: on a copy of nothing but its surroundings
-            // this would be faster, but the paper's forces are for comparison.
-            let mut at = self.at.clone();
-            return paper_forces(&self.sheet, node, &mut at);
+            return paper_forces(&self.sheet, node, &self.at);
         }
         self.sheet.pull(node, &self.at)
     }
