@@ -5,7 +5,7 @@ use crate::{
         Cell, Lattice,
         ring::{cross, nearest_on_segment},
     },
-    math::Vec2,
+    math::{Vec2, Vec3},
 };
 
 /// How far beyond a cell, in cells, its motion is carried on. Further out, the nearest place is
@@ -23,6 +23,18 @@ pub struct Place {
     pub nodes: [u32; 4],
     /// Their weights, of sum 1; some are negative outside of the cell.
     pub weights: [f64; 4],
+}
+
+impl Place {
+    /// The mean of the nodes' positions by the weights [cm].
+    #[must_use]
+    pub fn blend(&self, positions: &[Vec3]) -> Vec3 {
+        let mut at = Vec3::zeros();
+        for (node, weight) in self.nodes.iter().zip(self.weights) {
+            at += positions[*node as usize] * weight;
+        }
+        at
+    }
 }
 
 /// Answers many calls of [`Lattice::locate`] on one lattice, each in constant time.

@@ -1,29 +1,21 @@
 //! Coarse to fine: the same cloth cut ever finer, each cut starting where the last came to rest.
 
 use super::{
-    ForceModel, Level as LevelWork, Problem, Progress, Settings, Settled, Unsolvable, joint::Joint,
-    level::Level, start::Start,
+    ForceModel, Level as LevelWork, Problem, Progress, Settings, Settled, Unsolvable,
+    carry::{carry_over, push_out},
+    film::Film,
+    level::Level,
+    rest::Run,
+    start::Start,
 };
 use crate::{
-    certificate::{Case, certify, drape_shape, greatest_residual},
+    certificate::{Case, certify, drape_shape},
     contact::{Sites, Surface, Touches},
     forces::Sheet,
     lattice::Lattice,
     math::Vec3,
 };
 
-/// Sweeps before each joint step: they settle what is near, it settles what is far.
-const SWEEPS: usize = 4;
-/// A coarse level is left when steps ask for less than this part of its pitch.
-const COARSE_ENOUGH: f64 = 0.05;
-/// A drape whose joint steps ask for less than this [cm] is where it will be.
-const SETTLED: f64 = 1e-3;
-/// A node on a sharp feature may swing between two equilibria this near to each other [cm]: after
-/// as many rounds as patience lasts, either is accepted, and the swing is reported as the move
-/// that remains.
-const SWINGING: f64 = 0.02;
-/// Rounds of short steps before a swing is accepted.
-const PATIENCE: usize = 8;
 /// Pressure that the skin answers, in weights of the cloth: what a few decimetres of cloth bring
 /// to a curved body.
 const SKIN_PRESSURE: f64 = 10.0;
@@ -35,11 +27,7 @@ pub(super) fn descend(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Settled, Unsolvable> {
     let lattices = cuts(problem)?;
-    let surface = Surface {
-        friction: problem.friction,
-        offset: 0.5 * problem.thickness,
-        pressure: SKIN_PRESSURE * problem.fabric.weight,
-    };
+    let surface = surface(problem);
     let finest = &lattices[lattices.len() - 1];
     Start::new(problem, finest)?.check(problem, finest)?;
     let mut before: Option<(&Lattice, Vec<Vec3>)> = None;
@@ -48,6 +36,7 @@ pub(super) fn descend(
         watch,
         settings,
         levels: lattices.len(),
+        film: Film::new(settings.frames),
         stopped: false,
     };
     for (number, lattice) in lattices.iter().enumerate() {
@@ -61,7 +50,6 @@ pub(super) fn descend(
         }
         start.disturb(&mut level.at, lattice, problem.seed);
         push_out(&mut level, &surface);
-        let first = before.is_none();
         let case = Case {
             lattice,
             fabric: &problem.fabric,
@@ -72,7 +60,7 @@ pub(super) fn descend(
             bodies: &problem.bodies,
             surface,
         };
-        let remaining = run.rest(&mut level, &case, &start, number, first);
+        let remaining = run.rest(&mut level, &case, &start, number);
         work.push(LevelWork {
             spacing: lattice.pitch,
             nodes: level.at.len(),
@@ -80,11 +68,33 @@ pub(super) fn descend(
             joint_steps: level.joint_steps,
         });
         if number + 1 == lattices.len() {
-            return Ok(finish(&case, level, work, settings, remaining));
+            let settled = finish(&case, level, work, settings, remaining);
+            return Ok(Settled {
+                frames: run.film.develop(&lattices),
+                ..settled
+            });
         }
         before = Some((lattice, level.at));
     }
     Err(Unsolvable::Falls)
+}
+
+/// Cuts the finest lattice and finds out whether a drape can begin.
+pub(super) fn prepare(problem: &Problem) -> Result<Lattice, Unsolvable> {
+    let lattice = problem.piece.cut(problem.piece.pitch)?;
+    let mut start = Start::new(problem, &lattice)?;
+    start.check(problem, &lattice)?;
+    let fallen = start.fall(problem, &surface(problem), &lattice);
+    fallen.ok_or(Unsolvable::Falls)?;
+    Ok(lattice)
+}
+
+fn surface(problem: &Problem) -> Surface {
+    Surface {
+        friction: problem.friction,
+        offset: 0.5 * problem.thickness,
+        pressure: SKIN_PRESSURE * problem.fabric.weight,
+    }
 }
 
 /// The lattices from coarse to fine. Cuts that would fall apart when coarse are left out.
@@ -136,151 +146,6 @@ fn open<'a>(
         own_only: problem.forces == ForceModel::Paper,
         sweeps: 0,
         joint_steps: 0,
-    }
-}
-
-/// Positions of a finer lattice on the shape of a coarser one; held nodes where they are carried.
-fn carry_over(
-    coarse: &Lattice,
-    rest: &[Vec3],
-    fine: &Lattice,
-    start: &Start,
-    flat: &[Vec3],
-) -> Vec<Vec3> {
-    let locator = coarse.locator();
-    let mut at: Vec<Vec3> = fine
-        .coordinates
-        .iter()
-        .map(|coordinate| {
-            let place = locator.locate(*coordinate);
-            let mut at = Vec3::zeros();
-            for (node, weight) in place.nodes.iter().zip(place.weights) {
-                at += rest[*node as usize] * weight;
-            }
-            at
-        })
-        .collect();
-    for (node, carry) in &start.carry {
-        at[*node as usize] = flat[*node as usize] + carry;
-    }
-    at
-}
-
-/// Brings free nodes that the finer cut put into a body back to its surface.
-fn push_out(level: &mut Level<'_>, surface: &Surface) {
-    for node in 0..level.at.len() {
-        if level.held[node] {
-            continue;
-        }
-        for _ in 0..3 {
-            let nears = level.bodies.near(&level.at[node], 0.0);
-            let Some(deepest) = nears
-                .iter()
-                .min_by(|a, b| a.distance.total_cmp(&b.distance))
-            else {
-                break;
-            };
-            level.at[node] += deepest.normal * (surface.node_reach() - deepest.distance);
-        }
-    }
-}
-
-/// A run under its watcher.
-struct Run<'w> {
-    watch: &'w mut dyn FnMut(&Progress) -> bool,
-    settings: &'w Settings,
-    levels: usize,
-    stopped: bool,
-}
-
-impl Run<'_> {
-    /// Brings one level to rest, or as near as the watcher allows. Returns the estimate of how
-    /// far the farthest node still is from rest [cm].
-    fn rest(
-        &mut self,
-        level: &mut Level<'_>,
-        case: &Case<'_>,
-        start: &Start,
-        number: usize,
-        first: bool,
-    ) -> f64 {
-        let mut joint = Joint::new(level);
-        if first {
-            carry_holds(level, &mut joint, start);
-        }
-        let last = number + 1 == self.levels;
-        let pitch = level.lattice.pitch;
-        let mut made = pitch;
-        let mut remaining = f64::INFINITY;
-        let mut residual = f64::INFINITY;
-        let mut settled_for = 0;
-        for round in 0.. {
-            let progress = Progress {
-                level: (number, self.levels),
-                nodes: level.at.len(),
-                sweeps: level.sweeps,
-                residual,
-                remaining_move: remaining,
-            };
-            if self.stopped || !(self.watch)(&progress) {
-                self.stopped = true;
-                break;
-            }
-            level.look(0.8 * pitch, (2.0 * made).clamp(0.002, 0.1));
-            let sweeps = if joint.near { 0 } else { SWEEPS };
-            for _ in 0..sweeps {
-                level.sweep();
-                level.touches.look_at_loads(&level.at);
-            }
-            level.look(0.8 * pitch, (2.0 * made).clamp(0.002, 0.1));
-            let Some(step) = joint.step(level) else { break };
-            made = step.made;
-            remaining = step.asked;
-            if !last && (step.asked < COARSE_ENOUGH * pitch || round > 30) {
-                break;
-            }
-            settled_for = if step.exact && step.asked < COARSE_ENOUGH * pitch {
-                settled_for + 1
-            } else {
-                0
-            };
-            if last && settled_for > 1 {
-                joint.finish(level);
-                residual = greatest_residual(case, &level.at);
-                let still = if settled_for < PATIENCE {
-                    SETTLED
-                } else {
-                    SWINGING
-                };
-                if residual <= 0.5 * self.settings.tolerance && step.asked < still {
-                    break;
-                }
-            } else if round % 8 == 7 {
-                residual = greatest_residual(case, &level.at);
-            }
-        }
-        remaining
-    }
-}
-
-/// Carries the holds to where they belong, a part of a pitch at a time.
-fn carry_holds(level: &mut Level<'_>, joint: &mut Joint, start: &Start) {
-    let way = start
-        .carry
-        .iter()
-        .map(|(_, carry)| carry.norm())
-        .fold(0.0, f64::max);
-    let steps = (way / (0.4 * level.lattice.pitch)).ceil() as usize;
-    for _ in 0..steps {
-        for (node, carry) in &start.carry {
-            level.at[*node as usize] += carry / steps as f64;
-        }
-        level.look(level.lattice.pitch, 0.1);
-        for _ in 0..SWEEPS {
-            level.sweep();
-        }
-        level.look(level.lattice.pitch, 0.1);
-        joint.step(level);
     }
 }
 

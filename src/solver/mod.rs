@@ -1,11 +1,14 @@
 //! Finds rest: node by node to each node's own equilibrium (paper C-ii), until the whole is at rest.
 
+mod carry;
 mod dense;
 mod descent;
 mod dissection;
 mod factor;
+mod film;
 mod joint;
 mod level;
+mod rest;
 mod start;
 mod stiffness;
 mod sweep;
@@ -178,6 +181,14 @@ pub enum Unsolvable {
     /// Nothing holds the cloth: no hold, and no body under it.
     #[error("nothing carries the cloth: give a [[hold]], or a [[body]] below it")]
     Falls,
+}
+
+/// Cuts the cloth, takes hold of it and lets it fall, as [`settle`] does first, and solves nothing.
+///
+/// # Errors
+/// [`Unsolvable`], as [`settle`].
+pub fn prepare(problem: &Problem) -> Result<Lattice, Unsolvable> {
+    descent::prepare(problem)
 }
 
 /// Solves a problem; `watch` is asked between sweeps whether to go on.

@@ -1,0 +1,221 @@
+//! One lattice brought to rest: sweeps and joint steps in turn, until the certificate holds.
+
+use super::{
+    Progress, Settings,
+    film::Film,
+    joint::{Joint, Step},
+    level::Level,
+    start::Start,
+};
+use crate::certificate::{Case, greatest_residual};
+
+/// Sweeps before each joint step: they settle what is near, it settles what is far.
+const SWEEPS: usize = 4;
+/// A coarse level is left when steps ask for less than this part of its pitch.
+const COARSE_ENOUGH: f64 = 0.05;
+/// A drape whose joint steps ask for less than this [cm] is where it will be.
+const SETTLED: f64 = 1e-3;
+/// A node on a sharp feature may swing between two equilibria this near to each other [cm]: after
+/// as many rounds as patience lasts, either is accepted, and the swing is reported as the move
+/// that remains.
+const SWINGING: f64 = 0.02;
+/// Most rounds on a coarse level: its task is a start for the next.
+const COARSE_ROUNDS: usize = 30;
+/// Sweeps between two looks at the residual where there are no joint steps.
+const PLAIN_SWEEPS: usize = 20;
+/// No estimate of the way to rest is below this [cm]: the laws of contact are looked at anew only
+/// so often.
+const LEAST_ESTIMATE: f64 = 1e-5;
+/// Rounds of short steps before a swing is accepted.
+const PATIENCE: usize = 8;
+/// A run under its watcher.
+pub(super) struct Run<'w> {
+    pub(super) watch: &'w mut dyn FnMut(&Progress) -> bool,
+    pub(super) settings: &'w Settings,
+    pub(super) levels: usize,
+    pub(super) film: Film,
+    pub(super) stopped: bool,
+}
+
+/// How a level stands after a round.
+struct Standing {
+    /// Longest move of the last joint step [cm].
+    made: f64,
+    /// Estimate of the farthest node's way to rest [cm]; infinite where the shape is not known to
+    /// be stable.
+    remaining: f64,
+    residual: f64,
+    /// Rounds of short, exact steps without a break.
+    settled_for: usize,
+}
+
+impl Run<'_> {
+    /// Brings one level to rest, or as near as the watcher allows. Returns the estimate of how
+    /// far the farthest node still is from rest [cm].
+    pub(super) fn rest(
+        &mut self,
+        level: &mut Level<'_>,
+        case: &Case<'_>,
+        start: &Start,
+        number: usize,
+    ) -> f64 {
+        if level.own_only {
+            return self.rest_by_sweeps(level, case, number);
+        }
+        let mut joint = Joint::new(level);
+        if number == 0 {
+            carry_holds(level, &mut joint, start);
+        }
+        let last = number + 1 == self.levels;
+        let mut standing = Standing::new(level.lattice.pitch);
+        for round in 0.. {
+            if !self.goes_on(level, number, &standing) {
+                break;
+            }
+            let Some(step) = joint.round(level, standing.made) else {
+                break;
+            };
+            standing.note(&step, level.lattice.pitch);
+            if last {
+                if self.is_settled(level, case, &mut joint, &mut standing, round) {
+                    break;
+                }
+            } else if step.asked < COARSE_ENOUGH * level.lattice.pitch || round > COARSE_ROUNDS {
+                break;
+            }
+        }
+        standing.remaining
+    }
+
+    /// Asks the watcher, and films.
+    fn goes_on(&mut self, level: &Level<'_>, number: usize, standing: &Standing) -> bool {
+        let progress = Progress {
+            level: (number, self.levels),
+            nodes: level.at.len(),
+            sweeps: level.sweeps,
+            residual: standing.residual,
+            remaining_move: standing.remaining,
+        };
+        self.film.shoot(number, &level.at);
+        self.stopped = self.stopped || !(self.watch)(&progress);
+        !self.stopped
+    }
+
+    /// Whether the finest level has come to rest.
+    fn is_settled(
+        &self,
+        level: &mut Level<'_>,
+        case: &Case<'_>,
+        joint: &mut Joint,
+        standing: &mut Standing,
+        round: usize,
+    ) -> bool {
+        if standing.settled_for < 2 {
+            if round % 8 == 7 {
+                standing.residual = greatest_residual(case, &level.at);
+            }
+            return false;
+        }
+        joint.finish(level);
+        standing.residual = greatest_residual(case, &level.at);
+        let still = if standing.settled_for < PATIENCE {
+            SETTLED
+        } else {
+            SWINGING
+        };
+        standing.residual <= 0.5 * self.settings.tolerance && standing.remaining < still
+    }
+
+    /// The paper's ten forces have no energy, so no joint step: sweeps alone, until the certificate
+    /// holds or the watcher ends it.
+    fn rest_by_sweeps(&mut self, level: &mut Level<'_>, case: &Case<'_>, number: usize) -> f64 {
+        let last = number + 1 == self.levels;
+        let pitch = level.lattice.pitch;
+        let mut standing = Standing::new(pitch);
+        let mut before = f64::INFINITY;
+        for round in 0.. {
+            if !self.goes_on(level, number, &standing) {
+                break;
+            }
+            level.look(pitch, 0.1);
+            let mut moved = 0.0;
+            for _ in 0..PLAIN_SWEEPS {
+                moved = level.sweep();
+                level.touches.look_at_loads(&level.at);
+            }
+            // Moves that shrink by a factor r every so many sweeps have moved/(1 − r) to go.
+            let contraction = (moved / before).min(1.0);
+            before = moved;
+            standing.remaining = PLAIN_SWEEPS as f64 * moved / (1.0 - contraction);
+            if !last && (moved < 1e-4 * pitch || round > 10 * COARSE_ROUNDS) {
+                break;
+            }
+            standing.residual = greatest_residual(case, &level.at);
+            let still = standing.remaining < SWINGING;
+            if last && still && standing.residual <= 0.5 * self.settings.tolerance {
+                break;
+            }
+        }
+        standing.remaining
+    }
+}
+
+impl Standing {
+    fn new(pitch: f64) -> Self {
+        Self {
+            made: pitch,
+            remaining: f64::INFINITY,
+            residual: f64::INFINITY,
+            settled_for: 0,
+        }
+    }
+
+    fn note(&mut self, step: &Step, pitch: f64) {
+        self.made = step.made;
+        self.remaining = if step.exact {
+            step.asked.max(LEAST_ESTIMATE)
+        } else {
+            f64::INFINITY
+        };
+        let short = step.exact && step.asked < COARSE_ENOUGH * pitch;
+        self.settled_for = if short { self.settled_for + 1 } else { 0 };
+    }
+}
+
+impl Joint {
+    /// Sweeps, unless rest is near, then a joint step.
+    fn round(&mut self, level: &mut Level<'_>, made: f64) -> Option<Step> {
+        let way = 0.8 * level.lattice.pitch;
+        let sample_way = (2.0 * made).clamp(0.002, 0.1);
+        level.look(way, sample_way);
+        if !self.near {
+            for _ in 0..SWEEPS {
+                level.sweep();
+                level.touches.look_at_loads(&level.at);
+            }
+            level.look(way, sample_way);
+        }
+        self.step(level)
+    }
+}
+
+/// Carries the holds to where they belong, a part of a pitch at a time.
+fn carry_holds(level: &mut Level<'_>, joint: &mut Joint, start: &Start) {
+    let way = start
+        .carry
+        .iter()
+        .map(|(_, carry)| carry.norm())
+        .fold(0.0, f64::max);
+    let steps = (way / (0.4 * level.lattice.pitch)).ceil() as usize;
+    for _ in 0..steps {
+        for (node, carry) in &start.carry {
+            level.at[*node as usize] += carry / steps as f64;
+        }
+        level.look(level.lattice.pitch, 0.1);
+        for _ in 0..SWEEPS {
+            level.sweep();
+        }
+        level.look(level.lattice.pitch, 0.1);
+        joint.step(level);
+    }
+}
