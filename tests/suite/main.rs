@@ -12,6 +12,7 @@ mod bad_input;
 mod cli;
 mod friction;
 mod fuzz;
+mod honesty;
 mod laws;
 mod laws_contact;
 mod laws_paper;
