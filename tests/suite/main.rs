@@ -15,6 +15,7 @@ mod cli;
 mod figures;
 mod friction;
 mod fuzz;
+mod honesty;
 mod laws;
 mod laws_contact;
 mod laws_paper;
