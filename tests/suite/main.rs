@@ -17,6 +17,7 @@ mod laws;
 mod laws_contact;
 mod laws_paper;
 mod layers;
+mod probe;
 mod specimen;
 mod trial;
 mod verification;
