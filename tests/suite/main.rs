@@ -4,12 +4,16 @@
 //! - `cli`: every command, what it prints and how it exits.
 //! - `bad_input`, `bad_files`: each slip gets its message and its exit code, and costs no file.
 //! - `fuzz`: no bytes make the readers panic.
+//! - `verification`, `friction`: drapes that mathematics knows, and where friction gives way.
+//! - `honesty`: what the certificate says is left to go is what is left.
+//! - `determinism`: the same bits on any number of threads.
 //! - `laws`, `laws_contact`, `laws_paper`: every law is the slope of its own energy, and stays
 //!   what it is wherever the cloth is and whichever way it is turned.
 
 mod bad_files;
 mod bad_input;
 mod cli;
+mod determinism;
 mod friction;
 mod fuzz;
 mod honesty;
@@ -17,7 +21,6 @@ mod laws;
 mod laws_contact;
 mod laws_paper;
 mod layers;
-mod probe;
 mod specimen;
 mod trial;
 mod verification;
