@@ -28,7 +28,7 @@ pub use ply::ply;
 pub use report::{Run, report};
 pub use write::{WriteError, write};
 
-use crate::{lattice::Lattice, math::Vec3};
+use crate::{body::Bodies, lattice::Lattice, math::Vec3};
 
 /// A cloth in space.
 #[derive(Clone, Copy, Debug)]
@@ -48,4 +48,19 @@ pub struct BodyMesh {
     pub vertices: Vec<Vec3>,
     /// Corners of each face, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
+}
+
+/// The surfaces of all parts of the bodies, in their order.
+#[must_use]
+pub fn body_meshes(bodies: &Bodies) -> Vec<BodyMesh> {
+    let parts = bodies.parts().iter();
+    let meshed = parts.map(|part| {
+        let (vertices, triangles) = part.triangles();
+        BodyMesh {
+            name: part.name().to_owned(),
+            vertices,
+            triangles,
+        }
+    });
+    meshed.collect()
 }

@@ -3,6 +3,8 @@
 //! - `layers`: modules name only what the code map allows.
 //! - `cli`: every command, what it prints and how it exits.
 //! - `bad_input`, `bad_files`: each slip gets its message and its exit code, and costs no file.
+//! - `scenes`: every scene is certified and looks as it did, in figures and in a picture.
+//! - `figures`: what the paper says of its figures is so, and the README gives the numbers.
 //! - `fuzz`: no bytes make the readers panic.
 //! - `verification`, `friction`: drapes that mathematics knows, and where friction gives way.
 //! - `honesty`: what the certificate says is left to go is what is left.
@@ -14,6 +16,7 @@ mod bad_files;
 mod bad_input;
 mod cli;
 mod determinism;
+mod figures;
 mod friction;
 mod fuzz;
 mod honesty;
@@ -21,6 +24,9 @@ mod laws;
 mod laws_contact;
 mod laws_paper;
 mod layers;
+mod picture;
+mod scenes;
+mod solved;
 mod specimen;
 mod trial;
 mod verification;

@@ -36,7 +36,7 @@ impl<'a> Files<'a> {
             caption: mark,
             cloth,
             frames: &settled.frames,
-            bodies: body_meshes(scene),
+            bodies: output::body_meshes(&scene.problem.bodies),
             maps: heat_maps(&wish.maps, scene, settled, &cloth),
         }
     }
@@ -87,19 +87,6 @@ impl<'a> Files<'a> {
     fn put(&self, name: &str, bytes: &[u8]) -> Result<(), Failure> {
         Ok(output::write(&self.out.join(name), bytes)?)
     }
-}
-
-fn body_meshes(scene: &Scene) -> Vec<BodyMesh> {
-    let parts = scene.problem.bodies.parts().iter();
-    let meshed = parts.map(|part| {
-        let (vertices, triangles) = part.triangles();
-        BodyMesh {
-            name: part.name().to_owned(),
-            vertices,
-            triangles,
-        }
-    });
-    meshed.collect()
 }
 
 fn heat_maps(
