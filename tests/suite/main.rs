@@ -6,12 +6,16 @@
 //! - `scenes`: every scene is certified and looks as it did, in figures and in a picture.
 //! - `figures`: what the paper says of its figures is so, and the README gives the numbers.
 //! - `fuzz`: no bytes make the readers panic.
+//! - `verification`, `friction`: drapes that mathematics knows, and where friction gives way.
+//! - `honesty`: what the certificate says is left to go is what is left.
+//! - `determinism`: the same bits on any number of threads.
 //! - `laws`, `laws_contact`, `laws_paper`: every law is the slope of its own energy, and stays
 //!   what it is wherever the cloth is and whichever way it is turned.
 
 mod bad_files;
 mod bad_input;
 mod cli;
+mod determinism;
 mod figures;
 mod friction;
 mod fuzz;
