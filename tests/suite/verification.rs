@@ -5,7 +5,6 @@ use crate::specimen::{fabric, hang};
 use Cut::{Warp, Weft};
 use soen::{
     fabric::{Direction, Tension},
-    lattice::Edge,
     math::Vec3,
     solver::Settled,
 };
