@@ -104,22 +104,26 @@ impl Run<'_> {
     /// Whether the finest level has come to rest.
     fn is_settled(
         &self,
-        level: &Level<'_>,
+        level: &mut Level<'_>,
         case: &Case<'_>,
+        joint: &mut Joint,
         standing: &mut Standing,
         round: usize,
     ) -> bool {
-        let short = standing.settled_for > 1;
-        if short || round % 8 == 7 {
-            standing.residual = greatest_residual(case, &level.at);
+        if standing.settled_for < 2 {
+            if round % 8 == 7 {
+                standing.residual = greatest_residual(case, &level.at);
+            }
+            return false;
         }
+        joint.finish(level);
+        standing.residual = greatest_residual(case, &level.at);
         let still = if standing.settled_for < PATIENCE {
             SETTLED
         } else {
             SWINGING
         };
-        let at_rest = standing.residual <= 0.5 * self.settings.tolerance;
-        short && at_rest && standing.remaining < still
+        standing.residual <= 0.5 * self.settings.tolerance && standing.remaining < still
     }
 
     /// The paper's ten forces have no energy, so no joint step: sweeps alone, until the certificate
@@ -166,29 +170,15 @@ impl Standing {
         }
     }
 
-    fn count(&mut self, step: &Step, pitch: f64) {
+    fn note(&mut self, step: &Step, pitch: f64) {
+        self.made = step.made;
+        self.remaining = if step.exact {
+            step.asked.max(LEAST_ESTIMATE)
+        } else {
+            f64::INFINITY
+        };
         let short = step.exact && step.asked < COARSE_ENOUGH * pitch;
         self.settled_for = if short { self.settled_for + 1 } else { 0 };
-    }
-
-    /// Ends a round, and estimates what remains from how rounds contract: ways that shrink to a
-    /// part ρ each round have way/(1 − ρ) to go in all. A cloth that creeps (ρ = 1) is never near
-    /// rest, however short its rounds; one that swings (ρ < 0) goes no farther than it swings.
-    fn go_to(&mut self, at: &[Vec3], step: &Step) {
-        let (mut longest, mut along, mut square) = (step.asked, 0.0, 0.0);
-        for ((to, from), way) in at.iter().zip(&mut self.at).zip(&mut self.way) {
-            let next = to - *from;
-            longest = longest.max(next.norm());
-            along += next.dot(way);
-            square += way.norm_squared();
-            (*way, *from) = (next, *to);
-        }
-        let rate = if square > 0.0 { along / square } else { 0.0 };
-        self.remaining = match step.exact {
-            false => f64::INFINITY,
-            true if longest <= LEAST_ESTIMATE => LEAST_ESTIMATE,
-            true => longest / (1.0 - rate.clamp(0.0, 1.0)),
-        };
     }
 }
 

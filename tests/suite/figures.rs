@@ -10,13 +10,17 @@ fn sag(name: &str) -> f64 {
     (scene.problem.placement.centre.z - settled.shape.lowest) / (high.x - low.x)
 }
 
-/// Mean distance of the cloth from the ball, by area [cm].
+/// Mean distance from the ball, by area, of the cloth above its equator [cm]: what hangs free
+/// below, the corners of figure 12 a above all, says nothing of the fit.
 fn mean_gap(name: &str) -> f64 {
     let (_, settled) = solved(name);
-    let area = &settled.lattice.area;
-    let gaps = settled.positions.iter().map(|at| at.norm() - 10.0);
-    let sum: f64 = gaps.zip(area).map(|(gap, area)| gap * area).sum();
-    sum / area.iter().sum::<f64>()
+    let cloth = settled.positions.iter().zip(&settled.lattice.area);
+    let (mut gaps, mut areas) = (0.0, 0.0);
+    for (at, area) in cloth.filter(|(at, _)| at.z > 0.0) {
+        gaps += (at.norm() - 10.0) * area;
+        areas += area;
+    }
+    gaps / areas
 }
 
 #[test]
@@ -36,12 +40,12 @@ fn a_piece_on_the_bias_sags_more_than_one_along_the_warp() {
 #[test]
 fn cloth_with_tension_alone_lies_closer_to_the_ball() {
     let (tension, full) = (mean_gap("fig12a-tension-only"), mean_gap("fig12b-full"));
-    assert!(1.2 * tension < full, "{tension} {full}");
+    assert!(3.0 * tension < full, "{tension} {full}");
     in_readme(&format!(
-        "| 12 a, tension alone | {tension:.2} cm from the ball on average |"
+        "| 12 a, tension alone | {tension:.2} cm above the ball's upper half on average |"
     ));
     in_readme(&format!(
-        "| 12 b, all three laws | {full:.2} cm from the ball on average |"
+        "| 12 b, all three laws | {full:.2} cm above the ball's upper half on average |"
     ));
 }
 
