@@ -16,7 +16,7 @@ pub(super) struct Part {
     /// Its nodes, in order of elimination.
     pub(super) nodes: Vec<u32>,
     /// Parts that are eliminated before it and touch it or what follows it.
-    pub(super) halves: Vec<Part>,
+    pub(super) halves: Vec<Self>,
 }
 
 /// Which nodes each node shares a force with.

@@ -30,7 +30,7 @@ struct Front {
     /// How many of them are eliminated here.
     own: usize,
     /// For each half, where its border stands in `nodes`.
-    halves: Vec<(Front, Vec<u32>)>,
+    halves: Vec<(Self, Vec<u32>)>,
 }
 
 /// A factored system.
@@ -43,7 +43,7 @@ pub(super) struct Factor {
 struct Factored {
     /// Columns of L of the front's own nodes, over all its nodes (column-major).
     columns: Vec<f64>,
-    halves: Vec<Factored>,
+    halves: Vec<Self>,
 }
 
 impl Plan {

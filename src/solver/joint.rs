@@ -63,7 +63,7 @@ impl Joint {
         level
             .touches
             .stiffness(&level.at, &mut |row, column, block| {
-                matrix.add(row, column, block)
+                matrix.add(row, column, block);
             });
         for (node, weight) in level.sheet.weights().iter().enumerate() {
             let block = Mat3::identity() * (weight * self.shift);

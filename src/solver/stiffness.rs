@@ -56,9 +56,9 @@ impl Stiffness {
         if let Some(place) = columns.iter().position(|other| *other == column) {
             let target = &mut self.blocks[start + place];
             if turned {
-                *target += block.transpose()
+                *target += block.transpose();
             } else {
-                *target += block
+                *target += block;
             }
         }
     }

@@ -110,10 +110,7 @@ impl Belt {
 fn a_belt_holds_up_to_the_capstans_limit() {
     let belts = [
         (belt("a", 0.1, 5.0), 0.01),
-        (belt("a", 0.3, 2.0), 0.01),
-        (belt("c", 0.1, 5.0), 0.01),
         (belt("c", 0.3, 2.0), 0.01),
-        (belt("c", 0.5, 1.0), 0.01),
         (belt("d", 0.1, 10.0), 0.02),
     ];
     for (belt, margin) in belts {
@@ -130,7 +127,6 @@ fn a_belt_holds_up_to_the_capstans_limit() {
                 slides = part;
             }
         }
-        println!("{belt:?}: {heaviest}");
         assert!((heaviest - 1.0).abs() <= margin, "{belt:?}: {heaviest}");
     }
 }

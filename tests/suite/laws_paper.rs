@@ -22,9 +22,7 @@ proptest! {
             for node in 0..at.len() {
                 let own = Own { lattice: &lattice, cloth: &cloth, node: node as u32 };
                 let (force, stiffness) = own.force_and_stiffness(&at);
-                let mut there = at.clone();
-                let pull = paper_forces(&sheet, node, &mut there);
-                prop_assert_eq!(&there, &at);
+                let pull = paper_forces(&sheet, node, &at);
                 let (size, error) = (force.norm(), (pull.force - force).norm());
                 prop_assert!(error <= 1e-11 * (1.0 + size), "node {node}: {error} of {size}");
                 // (8)'s derivative is numerical.
