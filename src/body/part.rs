@@ -219,7 +219,13 @@ fn hull(points: &[Vec3]) -> Result<SharedShape, PartError> {
     let hull = SharedShape::convex_hull(&points).ok_or_else(flat)?;
     let polyhedron = hull.as_convex_polyhedron().ok_or_else(flat)?;
     let (vertices, triangles) = polyhedron.to_trimesh();
-    trimesh(vertices, triangles, TriMeshFlags::ORIENTED)
+    let built = trimesh(vertices, triangles, TriMeshFlags::ORIENTED)?;
+    // Points in one plane make a flat polyhedron, which has no inside.
+    if built.mass_properties(1.0).mass() > 1e-6 {
+        Ok(built)
+    } else {
+        Err(flat())
+    }
 }
 
 fn meshed(mesh: &Mesh) -> Result<(SharedShape, Nature), PartError> {
