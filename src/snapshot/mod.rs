@@ -12,7 +12,7 @@
 //! let settled = soen::solver::settle(&problem, &settings, &mut |_| true)?;
 //! println!("{}", soen::snapshot::figures(&problem, &settled));
 //! # assert!(soen::snapshot::figures(&problem, &settled).contains("nodes                 44\n"));
-//! # Ok::<(), soen::solver::Unsolvable>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod clearance;
