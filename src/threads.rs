@@ -1,5 +1,5 @@
 //! All cores where there are any, one where there is one, the same bits in either case: work is
-//! shared out by place, and nothing is summed across places.
+//! shared out by place, and sums are taken over blocks that do not depend on how.
 
 /// Calls `work` on every index of `0..count` and returns the answers in order.
 pub(crate) fn map<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
@@ -15,6 +15,25 @@ pub(crate) fn map<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync + Send
     #[cfg(not(feature = "threads"))]
     {
         (0..count).map(work).collect()
+    }
+}
+
+/// Terms that are summed one after the other: a sum has the same bits however it is shared out.
+const BLOCK: usize = 1024;
+
+/// The sum of `term` over `0..count`, block by block.
+pub(crate) fn sum(count: usize, term: impl Fn(usize) -> f64 + Sync + Send) -> f64 {
+    let block = |k: usize| -> f64 { (k * BLOCK..count.min((k + 1) * BLOCK)).map(&term).sum() };
+    let blocks = count.div_ceil(BLOCK);
+    #[cfg(feature = "threads")]
+    {
+        use rayon::prelude::*;
+        let sums: Vec<f64> = (0..blocks).into_par_iter().map(block).collect();
+        sums.into_iter().sum()
+    }
+    #[cfg(not(feature = "threads"))]
+    {
+        (0..blocks).map(block).sum()
     }
 }
 

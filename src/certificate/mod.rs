@@ -9,7 +9,7 @@ pub use shape::{DrapeShape, drape_shape};
 
 use crate::{
     body::Bodies,
-    contact::{Sites, Surface},
+    contact::{Sites, Surface, faces_around},
     fabric::Fabric,
     forces::{Clamp, Laws},
     lattice::Lattice,
@@ -65,6 +65,10 @@ pub struct Case<'a> {
 pub const DEEPEST_ALLOWED: f64 = 0.05;
 /// A certified cloth has no farther to go than this [cm].
 pub const FARTHEST_ALLOWED: f64 = 0.05;
+/// Between the places looked at, a surface may be nearer than at them by this [cm].
+const BETWEEN: f64 = 0.01;
+/// Samples this far beyond [cm] may have a place that touches near them.
+const AROUND: f64 = 0.1;
 /// Normals nearer than this to each other are one.
 const SAME_NORMAL: f64 = 1.0 - 1e-9;
 
@@ -153,16 +157,14 @@ impl Case<'_> {
                 .collect()
         };
         let mut normals = threads::map(at.len(), |node| near(&at[node], reach));
-        let reach = self.surface.sample_reach() + 1e-9;
         let sites = Sites::new(self.lattice);
-        let samples = at.len()..sites.len();
-        let of_samples = threads::map(samples.len(), |k| {
-            near(&sites.site(samples.start + k).at(at), reach)
+        let of_cells = threads::map(self.lattice.cells.len(), |cell| {
+            self.normals_at_cell(&sites, cell, at)
         });
-        for (sample, found) in samples.zip(of_samples) {
+        for (nodes, found) in self.lattice.cells.iter().zip(of_cells) {
             for normal in found {
-                for node in sites.site(sample).nodes {
-                    let known = &mut normals[node as usize];
+                for node in nodes {
+                    let known = &mut normals[*node as usize];
                     if !known.iter().any(|other| other.dot(&normal) > SAME_NORMAL) {
                         known.push(normal);
                     }
@@ -170,6 +172,27 @@ impl Case<'_> {
             }
         }
         normals
+    }
+
+    /// Normals of the surfaces that a cell touches between its nodes.
+    fn normals_at_cell(&self, sites: &Sites, cell: usize, at: &[Vec3]) -> Vec<Vec3> {
+        let reach = self.surface.sample_reach() + BETWEEN;
+        let wide = reach + AROUND;
+        let corners = self.lattice.cells[cell].map(|node| at[node as usize]);
+        let place = |[u, v]: [f64; 2]| blend(&corners, u, v);
+        // A cell is far when its middle is farther than its size.
+        let middle = place([0.5, 0.5]);
+        let size = corners.iter().map(|corner| (corner - middle).norm());
+        let size = size.fold(0.0, f64::max);
+        if self.bodies.near(&middle, size + wide).is_empty() {
+            return Vec::new();
+        }
+        let look = |sample| (sample, self.bodies.near(&place(sample), wide));
+        let samples: Vec<_> = sites.places().map(look).collect();
+        let around = faces_around(&place, self.bodies, wide, &samples);
+        let all = samples.into_iter().flat_map(|(_, nears)| nears);
+        let touching = all.chain(around).filter(|near| near.distance <= reach);
+        touching.map(|near| near.normal).collect()
     }
 
     /// A node's residual [-].

@@ -12,18 +12,18 @@ pub struct Site {
     pub weights: [f64; 4],
 }
 
-/// All sites of a lattice: nodes first, then a square grid of samples in each cell.
+/// All sites of a lattice: its nodes, a square grid of samples in each cell, and in each cell the
+/// one place that is nearest to a body, wherever that is.
 #[derive(Clone, Debug)]
 pub struct Sites {
     cells: Vec<[u32; 4]>,
-    nodes: usize,
-    side: usize,
     area: Vec<f64>,
-    cell_area: f64,
+    side: usize,
+    sample_area: f64,
 }
 
 /// Samples of a cell stand no farther apart than this [cm], where 4 to 8 a side allow it.
-const SAMPLE_DISTANCE: f64 = 0.125;
+const SAMPLE_DISTANCE: f64 = 0.25;
 
 impl Sites {
     /// The sites of a lattice.
@@ -32,61 +32,61 @@ impl Sites {
         let side = (lattice.pitch / SAMPLE_DISTANCE).ceil().clamp(4.0, 8.0) as usize;
         Self {
             cells: lattice.cells.clone(),
-            nodes: lattice.coordinates.len(),
-            side,
             area: lattice.area.clone(),
-            cell_area: lattice.pitch * lattice.pitch,
+            side,
+            sample_area: lattice.pitch * lattice.pitch / (side * side) as f64,
         }
     }
 
-    /// How many there are.
+    /// The cells, by their nodes.
     #[must_use]
-    pub fn len(&self) -> usize {
-        self.nodes + self.cells.len() * self.side * self.side
+    pub fn cells(&self) -> &[[u32; 4]] {
+        &self.cells
     }
 
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
+    /// Places of the samples in any cell, each from 0 to 1 along both sides.
+    pub fn places(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let side = self.side;
+        let place = move |k: usize| (k as f64 + 0.5) / side as f64;
+        (0..side * side).map(move |k| [place(k % side), place(k / side)])
     }
 
-    /// Whether a site is a node.
+    /// Samples of a cell.
     #[must_use]
-    pub fn is_node(&self, site: usize) -> bool {
-        site < self.nodes
+    pub fn samples(&self) -> usize {
+        self.side * self.side
     }
 
-    /// Area of cloth that a site stands for [cm²].
+    /// A node's own site.
     #[must_use]
-    pub fn area(&self, site: usize) -> f64 {
-        match self.area.get(site) {
-            Some(area) => *area,
-            None => self.cell_area / (self.side * self.side) as f64,
+    pub fn node(&self, node: usize) -> Site {
+        Site {
+            nodes: [node as u32; 4],
+            weights: [1.0, 0.0, 0.0, 0.0],
         }
     }
 
-    /// A site by its number.
+    /// The site at a place in a cell.
     #[must_use]
-    pub fn site(&self, site: usize) -> Site {
-        if site < self.nodes {
-            return Site {
-                nodes: [site as u32; 4],
-                weights: [1.0, 0.0, 0.0, 0.0],
-            };
-        }
-        let (cell, sample) = (
-            (site - self.nodes) / (self.side * self.side),
-            (site - self.nodes) % (self.side * self.side),
-        );
-        let place = |k: usize| (k as f64 + 0.5) / self.side as f64;
-        let (u, v) = (place(sample % self.side), place(sample / self.side));
+    pub fn in_cell(&self, cell: usize, [u, v]: [f64; 2]) -> Site {
         let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v];
         let nodes = self.cells[cell];
         Site {
             nodes,
             weights: gathered(&nodes, weights),
         }
+    }
+
+    /// Area of cloth that a node stands for [cm²].
+    #[must_use]
+    pub fn node_area(&self, node: usize) -> f64 {
+        self.area[node]
+    }
+
+    /// Area of cloth that a sample stands for [cm²].
+    #[must_use]
+    pub fn sample_area(&self) -> f64 {
+        self.sample_area
     }
 }
 

@@ -1,8 +1,12 @@
 //! The touches of a shape with the bodies, kept up to date as it moves.
 
-use super::{Friction, Site, Sites, Skin};
+use super::{
+    Friction, Site, Sites, Skin,
+    deepest::{FEATURE_REACH, deepest_place},
+};
 use crate::{
     body::{Bodies, Near},
+    lattice::Lattice,
     math::{Mat3, Vec3},
     threads,
 };
@@ -18,6 +22,8 @@ pub struct Touch {
     pub part: u32,
     /// Out of the surface, of length 1.
     pub normal: Vec3,
+    /// How the normal turned at the last look.
+    pub turn: Vec3,
     /// Depth in the skin at a position p is `top − normal·p` [cm].
     pub top: f64,
     /// The normal law.
@@ -63,29 +69,55 @@ const GIVE: f64 = 0.004;
 /// smooth body nodes carry and edges and sharp features meet samples.
 const SAMPLE_REACH: f64 = 0.005;
 
+/// Places of features that a cell remembers at most.
+const PLACES: usize = 6;
+/// A place nearer than this to a remembered one, in parts of the cell's side, is the same.
+const SAME_PLACE: f64 = 0.05;
+/// A remembered place this far from all surfaces [cm], beyond its reach, is forgotten.
+const FORGOTTEN: f64 = 0.05;
+
 /// All touches, in order of site and part.
 #[derive(Clone, Debug)]
 pub struct Touches {
     sites: Sites,
     surface: Surface,
+    pitch: f64,
     touches: Vec<Touch>,
     /// For each node, its touches.
     of_node: Vec<Vec<u32>>,
-    /// No part is nearer to a site than this was when it stood there [cm].
+    /// No part was nearer to a node than this [cm] when it stood there.
     clearance: Vec<(f64, Vec3)>,
+    /// Where features meet each cell.
+    places: Vec<Places>,
+    /// Whether features between samples are looked for.
+    features: bool,
+}
+
+type Places = [Option<[f64; 2]>; PLACES];
+
+/// A site with a surface near it.
+struct Found {
+    number: u32,
+    site: Site,
+    near: Near,
 }
 
 impl Touches {
-    /// Of a lattice's sites; none are found before the first [`refresh`](Self::refresh).
+    /// Of a lattice's sites; none are found before the first [`refresh`](Self::refresh). With
+    /// `features`, edges and tips between samples are looked for.
     #[must_use]
-    pub fn new(sites: Sites, surface: Surface, nodes: usize) -> Self {
-        let clearance = vec![(0.0, Vec3::repeat(f64::INFINITY)); sites.len()];
+    pub fn new(lattice: &Lattice, surface: Surface, features: bool) -> Self {
+        let sites = Sites::new(lattice);
+        let nodes = lattice.coordinates.len();
         Self {
-            sites,
             surface,
+            pitch: lattice.pitch,
             touches: Vec::new(),
             of_node: vec![Vec::new(); nodes],
-            clearance,
+            clearance: vec![(0.0, Vec3::repeat(f64::INFINITY)); nodes],
+            places: vec![[None; PLACES]; sites.cells().len()],
+            features,
+            sites,
         }
     }
 
@@ -101,103 +133,175 @@ impl Touches {
         if bodies.parts().is_empty() {
             return;
         }
-        let nodes = at.len();
-        let mut found = threads::map(nodes, |node| self.look(node, at, bodies, way));
-        for (node, (clearance, _)) in found.iter().enumerate() {
-            if let Some(clearance) = clearance {
-                self.clearance[node] = *clearance;
-            }
-        }
-        found.extend(threads::map(self.sites.len() - nodes, |sample| {
-            self.look(nodes + sample, at, bodies, sample_way)
-        }));
+        let reach = self.surface.node_reach() + way;
+        let nodes = threads::map(at.len(), |node| self.look(node, &at[node], bodies, reach));
         let mut fresh = Vec::with_capacity(self.touches.len());
-        for (number, (clearance, nears)) in found.into_iter().enumerate() {
+        for (node, (clearance, nears)) in nodes.into_iter().enumerate() {
             if let Some(clearance) = clearance {
-                self.clearance[number] = clearance;
+                self.clearance[node] = (clearance, at[node]);
             }
             for near in nears {
-                fresh.push(self.touch(number, &near, at));
+                fresh.push(self.touch(node as u32, self.sites.node(node), &near, at));
             }
+        }
+        let reach = self.surface.sample_reach() + sample_way;
+        let cells = threads::map(self.places.len(), |cell| {
+            self.look_at_cell(cell, at, bodies, reach)
+        });
+        for (cell, (places, found)) in cells.into_iter().enumerate() {
+            for found in found {
+                fresh.push(self.touch(found.number, found.site, &found.near, at));
+            }
+            self.places[cell] = places;
         }
         self.touches = fresh;
         self.list_by_node();
     }
 
-    /// What one site has near it, and its clearance if it was measured anew.
+    /// What a node has near it, and its clearance if it was measured anew.
     fn look(
         &self,
-        number: usize,
-        at: &[Vec3],
+        node: usize,
+        at: &Vec3,
         bodies: &Bodies,
-        way: f64,
-    ) -> (Option<(f64, Vec3)>, Vec<Near>) {
-        let reach = self.reach(number) + way;
-        let here = self.sites.site(number).at(at);
-        let (clear, there) = self.clearance[number];
-        if !self.sites.is_node(number) && self.clear_of(number, at, &here) > reach {
-            return (None, Vec::new());
-        }
+        reach: f64,
+    ) -> (Option<f64>, Vec<Near>) {
+        let (clear, there) = self.clearance[node];
         // Written so that a clearance never measured (at infinity) does not count.
-        if clear - (here - there).norm() > reach {
+        if clear - (at - there).norm() > reach {
             return (None, Vec::new());
         }
-        let wide = reach + 0.5 + 2.0 * way;
-        let mut nears = bodies.near(&here, wide);
+        let wide = 2.0 * reach + self.pitch;
+        let mut nears = bodies.near(at, wide);
         let nearest = nears.iter().map(|near| near.distance).fold(wide, f64::min);
         nears.retain(|near| near.distance <= reach);
-        (Some((nearest, here)), nears)
+        (Some(nearest), nears)
     }
 
-    /// How far a sample is from any surface at least, by what its cell's nodes know [cm].
-    fn clear_of(&self, number: usize, at: &[Vec3], here: &Vec3) -> f64 {
+    /// What the samples of a cell and the places of its features have near them.
+    fn look_at_cell(
+        &self,
+        cell: usize,
+        at: &[Vec3],
+        bodies: &Bodies,
+        reach: f64,
+    ) -> (Places, Vec<Found>) {
+        let wide = if self.features {
+            reach.max(FEATURE_REACH * self.pitch)
+        } else {
+            reach
+        };
+        if self.clear_of(cell, at) > wide {
+            return ([None; PLACES], Vec::new());
+        }
+        let point = |place| self.sites.in_cell(cell, place).at(at);
+        let look = |place| (place, bodies.near(&point(place), wide));
+        let mut all: Vec<([f64; 2], Vec<Near>)> = self.sites.places().map(look).collect();
+        let places = self.remember(cell, &point, bodies, &all);
+        all.extend(
+            places
+                .iter()
+                .map(|place| place.map_or(([0.0; 2], Vec::new()), look)),
+        );
+        let first = self.clearance.len() + cell * (self.sites.samples() + PLACES);
+        let mut found = Vec::new();
+        for (k, (place, nears)) in all.into_iter().enumerate() {
+            let site = self.sites.in_cell(cell, place);
+            let nears = nears.into_iter().filter(|near| near.distance <= reach);
+            found.extend(nears.map(|near| Found {
+                number: (first + k) as u32,
+                site,
+                near,
+            }));
+        }
+        (places, found)
+    }
+
+    /// The places of a cell's features: those known before that are still near one, and the
+    /// deepest now. A cell that rests on several keeps them all, else it would rock between them.
+    fn remember(
+        &self,
+        cell: usize,
+        point: &impl Fn([f64; 2]) -> Vec3,
+        bodies: &Bodies,
+        all: &[([f64; 2], Vec<Near>)],
+    ) -> Places {
+        if !self.features {
+            return [None; PLACES];
+        }
+        let far = self.surface.sample_reach() + FORGOTTEN;
+        let near = |place: &[f64; 2]| !bodies.near(&point(*place), far).is_empty();
+        let mut places = self.places[cell].map(|place| place.filter(near));
+        let wide = far.max(FEATURE_REACH * self.pitch);
+        if let Some(place) = deepest_place(point, bodies, wide, all) {
+            let same = |known: &[f64; 2]| {
+                (known[0] - place[0]).abs().max((known[1] - place[1]).abs()) < SAME_PLACE
+            };
+            if !places.iter().flatten().any(same)
+                && let Some(free) = places.iter_mut().find(|known| known.is_none())
+            {
+                *free = Some(place);
+            }
+        }
+        places
+    }
+
+    /// How far every point of a cell is from any surface at least, by what its nodes know [cm].
+    fn clear_of(&self, cell: usize, at: &[Vec3]) -> f64 {
+        let nodes = self.sites.cells()[cell];
         let by_node = |node: u32| {
             let (clear, there) = self.clearance[node as usize];
-            let position = at[node as usize];
-            clear - (position - there).norm() - (position - here).norm()
+            let here = at[node as usize];
+            let farthest = nodes
+                .iter()
+                .map(|other| (at[*other as usize] - here).norm())
+                .fold(0.0, f64::max);
+            clear - (here - there).norm() - farthest
         };
-        self.sites
-            .site(number)
-            .nodes
+        nodes
             .into_iter()
             .map(by_node)
             .fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// How far from a surface a site begins to touch [cm].
-    fn reach(&self, number: usize) -> f64 {
-        if self.sites.is_node(number) {
-            self.surface.node_reach()
-        } else {
-            self.surface.sample_reach()
-        }
-    }
-
-    fn touch(&self, number: usize, near: &Near, at: &[Vec3]) -> Touch {
-        let site = self.sites.site(number);
+    fn touch(&self, number: u32, site: Site, near: &Near, at: &[Vec3]) -> Touch {
         let here = site.at(at);
-        let key = (number as u32, near.part as u32);
+        let key = (number, near.part as u32);
         let before = self
             .touches
             .binary_search_by(|touch| (touch.number, touch.part).cmp(&key));
         let before = before.ok().map(|place| &self.touches[place]);
-        let skin = Skin {
-            scale: self.surface.pressure * self.sites.area(number),
-            depth: SKIN_DEPTH,
+        let before = before.filter(|touch| touch.site == site);
+        let (area, reach) = match self.node_of(number) {
+            Some(node) => (self.sites.node_area(node), self.surface.node_reach()),
+            None => (self.sites.sample_area(), self.surface.sample_reach()),
         };
+        let (normal, turn) = before.map_or((near.normal, Vec3::zeros()), |touch| {
+            settled_normal(touch, &near.normal)
+        });
         Touch {
             number: key.0,
             site,
             part: key.1,
-            normal: near.normal,
-            top: near.normal.dot(&here) - near.distance + self.reach(number),
-            skin,
+            normal,
+            turn,
+            top: normal.dot(&here) - near.distance + reach,
+            skin: Skin {
+                scale: self.surface.pressure * area,
+                depth: SKIN_DEPTH,
+            },
             friction: Friction {
                 limit: before.map_or(0.0, |touch| touch.friction.limit),
                 give: GIVE,
             },
             anchor: before.map_or(here, |touch| touch.anchor),
         }
+    }
+
+    /// The node that a site is, if it is one.
+    fn node_of(&self, number: u32) -> Option<usize> {
+        let number = number as usize;
+        (number < self.clearance.len()).then_some(number)
     }
 
     fn list_by_node(&mut self) {
@@ -256,16 +360,19 @@ impl Touches {
     /// Energy of all touches [gf·cm].
     #[must_use]
     pub fn energy(&self, at: &[Vec3]) -> f64 {
-        self.touches
-            .iter()
-            .map(|touch| touch.energy(&touch.site.at(at)))
-            .sum()
+        threads::sum(self.touches.len(), |k| {
+            let touch = &self.touches[k];
+            touch.energy(&touch.site.at(at))
+        })
     }
 
     /// Adds the touches' forces to the nodes' [gf].
     pub fn add_forces(&self, at: &[Vec3], forces: &mut [Vec3]) {
-        for touch in &self.touches {
-            let force = touch.force(&touch.site.at(at));
+        let answers = threads::map(self.touches.len(), |k| {
+            let touch = &self.touches[k];
+            touch.force(&touch.site.at(at))
+        });
+        for (touch, force) in self.touches.iter().zip(answers) {
             for (node, weight) in touch.site.shares() {
                 forces[node as usize] += force * weight;
             }
@@ -274,10 +381,12 @@ impl Touches {
 
     /// Hands the touches' stiffness [gf/cm] to `add(row, column, block)`, each pair once.
     pub fn stiffness(&self, at: &[Vec3], add: &mut dyn FnMut(u32, u32, &Mat3)) {
-        for touch in &self.touches {
-            let Some(block) = touch.stiffness(&touch.site.at(at)) else {
-                continue;
-            };
+        let blocks = threads::map(self.touches.len(), |k| {
+            let touch = &self.touches[k];
+            touch.stiffness(&touch.site.at(at))
+        });
+        for (touch, block) in self.touches.iter().zip(blocks) {
+            let Some(block) = block else { continue };
             for (k, (row, one)) in touch.site.shares().enumerate() {
                 for (column, other) in touch.site.shares().skip(k) {
                     add(row, column, &(block * (one * other)));
@@ -328,6 +437,17 @@ impl Touches {
         }
         loads
     }
+}
+
+/// The normal of a touch that goes on, and its turn. One that turns back is met half way: between
+/// two faces of an edge a site would else swing for ever.
+fn settled_normal(before: &Touch, now: &Vec3) -> (Vec3, Vec3) {
+    let turn = now - before.normal;
+    if turn.dot(&before.turn) >= 0.0 {
+        return (*now, turn);
+    }
+    let middle = (before.normal + turn * 0.5).normalize();
+    (middle, middle - before.normal)
 }
 
 impl Touch {

@@ -8,6 +8,7 @@ use crate::{
     fabric::{Direction, Fabric, Yarn},
     lattice::Lattice,
     math::{Mat3, Vec3},
+    threads,
 };
 
 /// Which laws act; weight always does.
@@ -210,21 +211,21 @@ impl<'a> Sheet<'a> {
     /// Energy of cloth and weight [gf·cm].
     #[must_use]
     pub fn energy(&self, at: &[Vec3]) -> f64 {
-        let mut energy = 0.0;
-        for rod in &self.rods {
-            energy += self.law(rod).energy(&rod.along(at));
-        }
-        for angle in &self.angles {
+        let rods = threads::sum(self.rods.len(), |k| {
+            let rod = &self.rods[k];
+            self.law(rod).energy(&rod.along(at))
+        });
+        let angles = threads::sum(self.angles.len(), |k| {
+            let angle = &self.angles[k];
             let (u, v) = angle.rods(at);
-            energy += turn(&u, &v, angle.stiffness, angle.rest).energy;
-        }
-        for clamp in &self.clamps {
-            energy += turn(&clamp.slope, &clamp.along(at), clamp.stiffness, 0.0).energy;
-        }
-        for (weight, position) in self.weights.iter().zip(at) {
-            energy += weight * position.z;
-        }
-        energy
+            turn(&u, &v, angle.stiffness, angle.rest).energy
+        });
+        let clamps = threads::sum(self.clamps.len(), |k| {
+            let clamp = &self.clamps[k];
+            turn(&clamp.slope, &clamp.along(at), clamp.stiffness, 0.0).energy
+        });
+        let weights = threads::sum(at.len(), |node| self.weights[node] * at[node].z);
+        rods + angles + clamps + weights
     }
 
     /// The force on every node [gf].
@@ -235,15 +236,22 @@ impl<'a> Sheet<'a> {
             .iter()
             .map(|weight| Vec3::new(0.0, 0.0, -weight))
             .collect();
-        for rod in &self.rods {
-            let pull = self.law(rod).pull(&rod.along(at));
+        let pulls = threads::map(self.rods.len(), |k| {
+            let rod = &self.rods[k];
+            self.law(rod).pull(&rod.along(at))
+        });
+        for (rod, pull) in self.rods.iter().zip(pulls) {
             forces[rod.nodes[0] as usize] += pull;
             forces[rod.nodes[1] as usize] -= pull;
         }
-        for angle in &self.angles {
+        let slopes = threads::map(self.angles.len(), |k| {
+            let angle = &self.angles[k];
             let (u, v) = angle.rods(at);
             let law = turn(&u, &v, angle.stiffness, angle.rest);
-            for (node, slope) in angle.nodes.iter().zip(angle.spread(&law.by_u, &law.by_v)) {
+            angle.spread(&law.by_u, &law.by_v)
+        });
+        for (angle, slopes) in self.angles.iter().zip(slopes) {
+            for (node, slope) in angle.nodes.iter().zip(slopes) {
                 forces[*node as usize] -= slope;
             }
         }
@@ -259,8 +267,11 @@ impl<'a> Sheet<'a> {
     /// diagonal blocks, and each pair of an element's nodes once. With `positive`, every element's
     /// negative directions are left out.
     pub fn stiffness(&self, at: &[Vec3], positive: bool, add: &mut dyn FnMut(u32, u32, &Mat3)) {
-        for rod in &self.rods {
-            let block = self.law(rod).stiffness(&rod.along(at), positive);
+        let blocks = threads::map(self.rods.len(), |k| {
+            let rod = &self.rods[k];
+            self.law(rod).stiffness(&rod.along(at), positive)
+        });
+        for (rod, block) in self.rods.iter().zip(blocks) {
             let [a, b] = rod.nodes;
             add(a, a, &block);
             add(b, b, &block);
@@ -271,9 +282,12 @@ impl<'a> Sheet<'a> {
         } else {
             turn_stiffness
         };
-        for angle in &self.angles {
+        let blocks = threads::map(self.angles.len(), |k| {
+            let angle = &self.angles[k];
             let (u, v) = angle.rods(at);
-            let blocks = blocks_of(&u, &v, angle.stiffness, angle.rest);
+            blocks_of(&u, &v, angle.stiffness, angle.rest)
+        });
+        for (angle, blocks) in self.angles.iter().zip(blocks) {
             let signs = angle.signs();
             for (k, &row) in angle.nodes.iter().enumerate() {
                 for (l, &column) in angle.nodes.iter().enumerate().skip(k) {

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     certificate::{Case, certify, drape_shape},
-    contact::{Sites, Surface, Touches},
+    contact::{Surface, Touches},
     forces::Sheet,
     lattice::Lattice,
     math::Vec3,
@@ -44,7 +44,8 @@ pub(super) fn descend(
         start
             .fall(problem, &surface, lattice)
             .ok_or(Unsolvable::Falls)?;
-        let mut level = open(problem, lattice, &start, surface);
+        let last = number + 1 == lattices.len();
+        let mut level = open(problem, lattice, &start, surface, last);
         if let Some((coarse, rest)) = &before {
             level.at = carry_over(coarse, rest, lattice, &start, &level.at);
         }
@@ -67,7 +68,7 @@ pub(super) fn descend(
             sweeps: level.sweeps,
             joint_steps: level.joint_steps,
         });
-        if number + 1 == lattices.len() {
+        if last {
             let settled = finish(&case, level, work, settings, remaining);
             return Ok(Settled {
                 frames: run.film.develop(&lattices),
@@ -124,6 +125,7 @@ fn open<'a>(
     lattice: &'a Lattice,
     start: &Start,
     surface: Surface,
+    last: bool,
 ) -> Level<'a> {
     let colours = lattice
         .colours()
@@ -139,7 +141,7 @@ fn open<'a>(
         lattice,
         sheet: Sheet::new(lattice, &problem.fabric, problem.laws, &start.clamps),
         bodies: &problem.bodies,
-        touches: Touches::new(Sites::new(lattice), surface, start.at.len()),
+        touches: Touches::new(lattice, surface, last),
         held: start.held.clone(),
         colours,
         at: start.at.clone(),

@@ -1,30 +1,59 @@
 //! The joint step: system (8) written for all nodes at once, so that a move of the whole cloth
 //! that each node alone would take thousands of sweeps to feel is made in one.
 //!
-//! 1. The derivative of all forces by all positions is assembled exactly, with λ times each node's
-//!    weight on the diagonal.
-//! 2. λ is the least that leaves it positive definite and keeps the energy falling; it goes to 0
-//!    as rest comes near, where steps converge quadratically.
-//! 3. The step is cut to a part of the pitch, and each node to the way that bodies leave free.
-//! 4. It is halved until the energy falls.
+//! 1. Two derivatives of all forces by all positions are assembled: the exact one, and one without
+//!    its negative directions, which is factored. Each node's weight, times a damping of its own,
+//!    is added to both.
+//! 2. The exact one is solved by conjugate gradients that the factors lead.
+//! 3. The step is cut to the trusted length, and each node to the way that bodies leave free. It is
+//!    corrected for what turning has lengthened, and halved until the energy falls.
+//! 4. Nodes that asked for too much are damped more next time, others less: a flap that swings
+//!    does not hold the rest of the cloth back.
+//! 5. Near rest the exact derivative alone is factored; steps then converge quadratically.
 
 use super::{
     factor::{Factor, Plan},
     level::Level,
+    model::{Model, longest},
     stiffness::Stiffness,
 };
 use crate::math::{Mat3, Vec3};
 
 /// A node moves at most this part of a pitch in a joint step.
 const LONGEST_MOVE: f64 = 0.8;
+/// A step that asks for less than this part of a pitch is short.
+const NEAR: f64 = 0.1;
+/// Most steps of a finish, and the move [cm] that ends it.
+const FINISHING: usize = 6;
+const FINISHED: f64 = 1e-7;
+/// Corrections after a joint step: each costs a tenth of the factors.
+const CORRECTIONS: usize = 3;
+/// Damping times pitch is never below this.
+const LEAST_DAMPING: f64 = 0.01;
+/// A node is restless when it asks for more than this part of the longest move.
+const RESTLESS: f64 = 0.1;
+/// Visits to restless nodes cost as much as so many sweeps over all, and are no more than so many.
+const RESTLESS_SWEEPS: usize = 3;
+const MOST_VISITS: usize = 60;
+/// A node counts as damped where damping times pitch is above this.
+const DAMPED: f64 = 0.1;
+/// A step is halved at most so often.
+const HALVINGS: usize = 8;
 
-/// The matrix and how far it is shifted from the exact one.
+/// The joint system and what was learnt of the steps it may ask for.
 #[derive(Debug)]
 pub(super) struct Joint {
-    pub(super) plan: Plan,
-    pub(super) stiffness: Stiffness,
-    /// λ: stiffness per weight [1/cm].
-    pub(super) shift: f64,
+    plan: Plan,
+    exact: Stiffness,
+    positive: Stiffness,
+    /// Damping of each node: stiffness per weight [1/cm].
+    damping: Vec<f64>,
+    /// Nodes that asked for much in the last step, by colours.
+    pub(super) restless: Vec<Vec<u32>>,
+    /// Length that steps are trusted to [cm].
+    radius: f64,
+    /// How far the level has looked for touches [cm]: no step is longer.
+    pub(super) sight: f64,
     /// Whether the last step was short: rest may be near, and the exact matrix is tried.
     pub(super) near: bool,
 }
@@ -36,80 +65,150 @@ pub(super) struct Step {
     pub(super) asked: f64,
     /// Longest move made [cm].
     pub(super) made: f64,
-    /// Whether the unshifted, exact matrix was positive definite: the shape is stable.
+    /// Whether the exact, undamped matrix was positive definite: the shape is stable.
     pub(super) exact: bool,
+    /// Whether no more than one node in a hundred was damped, so that what was asked for is what
+    /// the cloth wants.
+    pub(super) free: bool,
+}
+
+/// Which derivative is meant.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Exact,
+    Damped,
+    PositiveDamped,
 }
 
 impl Joint {
     pub(super) fn new(level: &Level<'_>) -> Self {
-        let (plan, stiffness) = level.plan();
+        let (plan, exact) = level.plan();
         Self {
             plan,
-            stiffness,
-            shift: 4.0 / level.lattice.pitch,
+            positive: exact.clone(),
+            exact,
+            damping: vec![4.0 / level.lattice.pitch; level.at.len()],
+            restless: Vec::new(),
+            radius: 0.2 * level.lattice.pitch,
+            sight: 0.0,
             near: false,
         }
     }
 
-    /// Assembles the matrix at the level's positions.
-    fn assemble(&mut self, level: &Level<'_>, positive: bool) {
-        let matrix = &mut self.stiffness;
+    /// How often restless nodes are visited before the next step: few of them often, many seldom,
+    /// so that it costs as much as so many sweeps.
+    pub(super) fn visits(&self, level: &Level<'_>) -> usize {
+        let restless: usize = self.restless.iter().map(Vec::len).sum();
+        (RESTLESS_SWEEPS * level.at.len() / restless.max(1)).min(MOST_VISITS)
+    }
+
+    /// Assembles a derivative at the level's positions.
+    fn assemble(&mut self, level: &Level<'_>, kind: Kind) {
+        let positive = kind == Kind::PositiveDamped;
+        let matrix = if positive {
+            &mut self.positive
+        } else {
+            &mut self.exact
+        };
         matrix.clear();
+        let at = &level.at;
         level
             .sheet
-            .stiffness(&level.at, positive, &mut |row, column, block| {
+            .stiffness(at, positive, &mut |row, column, block| {
                 matrix.add(row, column, block);
             });
-        level
-            .touches
-            .stiffness(&level.at, &mut |row, column, block| {
-                matrix.add(row, column, block);
-            });
-        for (node, weight) in level.sheet.weights().iter().enumerate() {
-            let block = Mat3::identity() * (weight * self.shift);
+        level.touches.stiffness(at, &mut |row, column, block| {
+            matrix.add(row, column, block);
+        });
+        if kind == Kind::Exact {
+            return;
+        }
+        let weights = level.sheet.weights().iter().zip(&self.damping);
+        for (node, (weight, damping)) in weights.enumerate() {
+            let block = Mat3::identity() * (weight * damping);
             matrix.add(node as u32, node as u32, &block);
         }
     }
 
-    /// Factors the exact matrix at the least shift that allows it, or else the positive one.
-    fn factor(&mut self, level: &Level<'_>) -> Option<(Factor, bool)> {
-        let least = LEAST_SHIFT / level.lattice.pitch;
-        if self.shift < least {
-            self.shift = 0.0;
+    /// One step; the level has just looked at its touches. `None` where even the positive matrix
+    /// cannot be factored.
+    pub(super) fn step(&mut self, level: &mut Level<'_>) -> Option<Step> {
+        level.joint_steps += 1;
+        let forces = level.forces(&level.at);
+        if self.near
+            && let Some(step) = self.exact_step(level, &forces)
+        {
+            return Some(step);
         }
-        if self.near {
-            for _ in 0..3 {
-                self.assemble(level, false);
-                if let Some(factor) = Factor::new(&self.plan, &self.stiffness) {
-                    return Some((factor, self.shift == 0.0));
-                }
-                self.shift = (self.shift * 5.0).max(4.0 * least);
-            }
-        }
-        self.shift = self.shift.max(least);
-        self.assemble(level, true);
-        Some((Factor::new(&self.plan, &self.stiffness)?, false))
+        self.damped_step(level, &forces)
     }
 
-    /// One step; the level has just looked at its touches.
-    pub(super) fn step(&mut self, level: &mut Level<'_>) -> Option<Step> {
-        let forces = level.forces(&level.at);
-        let (factor, exact) = self.factor(level)?;
-        let moves = factor.solve(&self.plan, &forces);
-        level.joint_steps += 1;
+    /// A step by the exact matrix, if it is positive definite and asks for little.
+    fn exact_step(&mut self, level: &mut Level<'_>, forces: &[Vec3]) -> Option<Step> {
+        self.near = false;
+        self.assemble(level, Kind::Exact);
+        let factor = Factor::new(&self.plan, &self.exact)?;
+        let moves = factor.solve(&self.plan, forces);
         let asked = longest(&moves);
-        self.near = asked < NEAR * level.lattice.pitch;
-        if !asked.is_finite() {
-            self.shift = self.shift.max(1.0) * 10.0;
-            return Some(Step {
-                asked: f64::INFINITY,
-                made: 0.0,
-                exact: false,
-            });
+        // Written so that an answer that is not a number is not little.
+        if !(asked < NEAR * level.lattice.pitch) {
+            return None;
         }
-        let cap = (LONGEST_MOVE * level.lattice.pitch / asked.max(1e-300)).min(1.0);
-        let made = self.descend(level, &factor, &moves, cap);
-        Some(Step { asked, made, exact })
+        let made = self.descend(level, &factor, &moves, &moves);
+        self.near = true;
+        Some(Step {
+            asked,
+            made,
+            exact: true,
+            free: true,
+        })
+    }
+
+    /// A step by the exact matrix with damping, led by factors of the positive one.
+    fn damped_step(&mut self, level: &mut Level<'_>, forces: &[Vec3]) -> Option<Step> {
+        self.assemble(level, Kind::PositiveDamped);
+        let factor = Factor::new(&self.plan, &self.positive)?;
+        self.assemble(level, Kind::Damped);
+        let far = 4.0 * self.radius;
+        let model = Model::new(&self.plan, &factor, &self.exact, forces, far);
+        let asked = longest(&model.moves);
+        let made = if asked.is_finite() {
+            self.descend(level, &factor, &model.moves, &model.first)
+        } else {
+            0.0
+        };
+        let damped = self
+            .damping
+            .iter()
+            .filter(|damping| **damping > DAMPED / level.lattice.pitch);
+        let free = 100 * damped.count() <= level.at.len();
+        self.learn(level.lattice.pitch, &model.moves);
+        let restless = |node: &u32| model.moves[*node as usize].norm() > RESTLESS * asked;
+        self.restless = level
+            .colours
+            .iter()
+            .map(|nodes| nodes.iter().copied().filter(restless).collect())
+            .collect();
+        self.near = free && asked < NEAR * level.lattice.pitch && made > 0.0;
+        Some(Step {
+            asked,
+            made,
+            exact: false,
+            free,
+        })
+    }
+
+    /// Damps nodes that asked for more than is trusted, and frees others.
+    fn learn(&mut self, pitch: f64, moves: &[Vec3]) {
+        let least = LEAST_DAMPING / pitch;
+        for (damping, way) in self.damping.iter_mut().zip(moves) {
+            let asked = way.norm() / self.radius;
+            if asked < 0.5 {
+                *damping = (*damping * 0.5).max(least);
+            } else if asked > 1.0 {
+                *damping = damping.max(0.1 / self.radius) * asked.clamp(1.5, 10.0);
+            }
+        }
     }
 
     /// Steps on with the touches as they were last seen, where nothing but smooth laws is left and
@@ -123,26 +222,38 @@ impl Joint {
         }
     }
 
-    /// Halves the step until the energy falls, and learns λ from how that went.
-    fn descend(&mut self, level: &mut Level<'_>, factor: &Factor, moves: &[Vec3], cap: f64) -> f64 {
+    /// Halves the step until the energy falls, and learns how far steps can be trusted. Returns the
+    /// longest move made [cm], 0 where none lowers the energy. `first` is what the factors alone
+    /// answer to the forces here.
+    fn descend(
+        &mut self,
+        level: &mut Level<'_>,
+        factor: &Factor,
+        moves: &[Vec3],
+        first: &[Vec3],
+    ) -> f64 {
         let before = level.energy(&level.at);
         let noise = 1e-12 * before.abs().max(1.0);
-        let mut part = cap;
-        for halvings in 0..8 {
-            let to = self.corrected(level, factor, moves, part);
+        let longest_move = LONGEST_MOVE * level.lattice.pitch;
+        let asked = longest(moves).max(1e-300);
+        let mut part = (self.sight.min(2.0 * self.radius) / asked).min(1.0);
+        for halvings in 0..HALVINGS {
+            let to = self.corrected(level, factor, moves, first, part);
             if level.energy(&to) <= before + noise {
-                let made = to
-                    .iter()
-                    .zip(&level.at)
-                    .map(|(to, at)| (to - at).norm())
-                    .fold(0.0, f64::max);
+                let ways = to.iter().zip(&level.at).map(|(to, at)| (to - at).norm());
+                let made = ways.fold(0.0, f64::max);
                 level.at = to;
-                self.learn(halvings, cap);
+                if halvings > 0 {
+                    self.radius *= 0.7;
+                } else if asked * part > 0.5 * self.radius {
+                    self.radius = (1.3 * self.radius).min(0.5 * longest_move);
+                }
+                self.radius = self.radius.max(1e-3 * longest_move);
                 return made;
             }
             part *= 0.5;
         }
-        self.shift = (self.shift * 8.0).max(LEAST_SHIFT / level.lattice.pitch);
+        self.radius = (0.3 * self.radius).max(1e-3 * longest_move);
         0.0
     }
 
@@ -153,6 +264,7 @@ impl Joint {
         level: &Level<'_>,
         factor: &Factor,
         moves: &[Vec3],
+        first: &[Vec3],
         part: f64,
     ) -> Vec<Vec3> {
         let mut to = level.freely(|node| moves[node] * part);
@@ -160,7 +272,7 @@ impl Joint {
         for _ in 0..CORRECTIONS {
             let answer = factor.solve(&self.plan, &level.forces(&to));
             let way =
-                |node: usize| to[node] - level.at[node] + answer[node] - moves[node] * (1.0 - part);
+                |node: usize| to[node] - level.at[node] + answer[node] - first[node] * (1.0 - part);
             let next = level.freely(way);
             let lower = level.energy(&next);
             if lower.is_nan() || lower >= energy {
@@ -170,30 +282,4 @@ impl Joint {
         }
         to
     }
-
-    fn learn(&mut self, halvings: usize, cap: f64) {
-        match halvings {
-            0 if cap > 0.3 => self.shift *= 0.3,
-            0 => self.shift *= 0.7,
-            1 => (),
-            _ => self.shift = (self.shift * 3.0).min(1e3),
-        }
-    }
-}
-
-/// A step that asks for less than this part of a pitch is short.
-const NEAR: f64 = 0.1;
-/// Most steps of a finish, and the move [cm] that ends it.
-const FINISHING: usize = 6;
-const FINISHED: f64 = 1e-7;
-/// Corrections after a joint step: each costs a tenth of the factors.
-const CORRECTIONS: usize = 3;
-/// Below this λ times pitch the shift is dropped.
-const LEAST_SHIFT: f64 = 0.01;
-
-pub(super) fn longest(moves: &[Vec3]) -> f64 {
-    moves.iter().map(Vec3::norm).fold(
-        0.0,
-        |longest, way| if way <= longest { longest } else { way },
-    )
 }

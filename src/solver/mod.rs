@@ -8,6 +8,7 @@ mod factor;
 mod film;
 mod joint;
 mod level;
+mod model;
 mod rest;
 mod start;
 mod stiffness;

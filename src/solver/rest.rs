@@ -7,27 +7,33 @@ use super::{
     level::Level,
     start::Start,
 };
-use crate::certificate::{Case, greatest_residual};
+use crate::{
+    certificate::{Case, greatest_residual},
+    math::Vec3,
+};
 
 /// Sweeps before each joint step: they settle what is near, it settles what is far.
 const SWEEPS: usize = 4;
-/// A coarse level is left when steps ask for less than this part of its pitch.
+/// A coarse level is left when free steps ask for less than this part of its pitch.
 const COARSE_ENOUGH: f64 = 0.05;
-/// A drape whose joint steps ask for less than this [cm] is where it will be.
+/// Most rounds on a coarse level: its task is a start for the next.
+const COARSE_ROUNDS: usize = 150;
+/// A drape with less than this to go [cm] at a tolerance of 1e-3 is where it will be.
 const SETTLED: f64 = 1e-3;
 /// A node on a sharp feature may swing between two equilibria this near to each other [cm]: after
 /// as many rounds as patience lasts, either is accepted, and the swing is reported as the move
 /// that remains.
 const SWINGING: f64 = 0.02;
-/// Most rounds on a coarse level: its task is a start for the next.
-const COARSE_ROUNDS: usize = 30;
+/// Rounds of short steps before a swing is accepted.
+const PATIENCE: usize = 8;
+/// Rounds of short steps before their contraction is known.
+const ACQUAINTED: usize = 3;
 /// Sweeps between two looks at the residual where there are no joint steps.
 const PLAIN_SWEEPS: usize = 20;
 /// No estimate of the way to rest is below this [cm]: the laws of contact are looked at anew only
 /// so often.
 const LEAST_ESTIMATE: f64 = 1e-5;
-/// Rounds of short steps before a swing is accepted.
-const PATIENCE: usize = 8;
+
 /// A run under its watcher.
 pub(super) struct Run<'w> {
     pub(super) watch: &'w mut dyn FnMut(&Progress) -> bool,
@@ -47,6 +53,9 @@ struct Standing {
     residual: f64,
     /// Rounds of short, exact steps without a break.
     settled_for: usize,
+    /// Positions after the last round, and each node's way there from the round before [cm].
+    at: Vec<Vec3>,
+    way: Vec<Vec3>,
 }
 
 impl Run<'_> {
@@ -67,7 +76,7 @@ impl Run<'_> {
             carry_holds(level, &mut joint, start);
         }
         let last = number + 1 == self.levels;
-        let mut standing = Standing::new(level.lattice.pitch);
+        let mut standing = Standing::new(level);
         for round in 0.. {
             if !self.goes_on(level, number, &standing) {
                 break;
@@ -75,12 +84,18 @@ impl Run<'_> {
             let Some(step) = joint.round(level, standing.made) else {
                 break;
             };
-            standing.note(&step, level.lattice.pitch);
+            standing.count(&step, level.lattice.pitch);
             if last {
-                if self.is_settled(level, case, &mut joint, &mut standing, round) {
+                if standing.settled_for > 1 {
+                    joint.finish(level);
+                }
+                standing.go_to(&level.at, &step);
+                if self.is_settled(level, case, &mut standing, round) {
                     break;
                 }
-            } else if step.asked < COARSE_ENOUGH * level.lattice.pitch || round > COARSE_ROUNDS {
+            } else if step.free && step.asked < COARSE_ENOUGH * level.lattice.pitch
+                || round > COARSE_ROUNDS
+            {
                 break;
             }
         }
@@ -104,26 +119,22 @@ impl Run<'_> {
     /// Whether the finest level has come to rest.
     fn is_settled(
         &self,
-        level: &mut Level<'_>,
+        level: &Level<'_>,
         case: &Case<'_>,
-        joint: &mut Joint,
         standing: &mut Standing,
         round: usize,
     ) -> bool {
-        if standing.settled_for < 2 {
-            if round % 8 == 7 {
-                standing.residual = greatest_residual(case, &level.at);
-            }
-            return false;
+        let short = standing.settled_for > 1;
+        if short || round % 8 == 7 {
+            standing.residual = greatest_residual(case, &level.at);
         }
-        joint.finish(level);
-        standing.residual = greatest_residual(case, &level.at);
         let still = if standing.settled_for < PATIENCE {
-            SETTLED
+            (SETTLED * self.settings.tolerance / 1e-3).max(2.0 * LEAST_ESTIMATE)
         } else {
             SWINGING
         };
-        standing.residual <= 0.5 * self.settings.tolerance && standing.remaining < still
+        let at_rest = standing.residual <= 0.5 * self.settings.tolerance;
+        short && at_rest && standing.remaining < still
     }
 
     /// The paper's ten forces have no energy, so no joint step: sweeps alone, until the certificate
@@ -131,7 +142,7 @@ impl Run<'_> {
     fn rest_by_sweeps(&mut self, level: &mut Level<'_>, case: &Case<'_>, number: usize) -> f64 {
         let last = number + 1 == self.levels;
         let pitch = level.lattice.pitch;
-        let mut standing = Standing::new(pitch);
+        let mut standing = Standing::new(level);
         let mut before = f64::INFINITY;
         for round in 0.. {
             if !self.goes_on(level, number, &standing) {
@@ -161,24 +172,43 @@ impl Run<'_> {
 }
 
 impl Standing {
-    fn new(pitch: f64) -> Self {
+    fn new(level: &Level<'_>) -> Self {
         Self {
-            made: pitch,
+            made: level.lattice.pitch,
             remaining: f64::INFINITY,
             residual: f64::INFINITY,
             settled_for: 0,
+            at: level.at.clone(),
+            way: vec![Vec3::zeros(); level.at.len()],
         }
     }
 
-    fn note(&mut self, step: &Step, pitch: f64) {
+    fn count(&mut self, step: &Step, pitch: f64) {
         self.made = step.made;
-        self.remaining = if step.exact {
-            step.asked.max(LEAST_ESTIMATE)
-        } else {
-            f64::INFINITY
-        };
         let short = step.exact && step.asked < COARSE_ENOUGH * pitch;
         self.settled_for = if short { self.settled_for + 1 } else { 0 };
+    }
+
+    /// Ends a round, and estimates what remains from how rounds contract: ways that shrink to a
+    /// part ρ each round have way/(1 − ρ) to go in all. A cloth that creeps (ρ = 1) is never near
+    /// rest, however short its rounds; one that swings (ρ < 0) goes no farther than it swings.
+    fn go_to(&mut self, at: &[Vec3], step: &Step) {
+        let (mut longest, mut along, mut square) = (step.asked, 0.0, 0.0);
+        for ((to, from), way) in at.iter().zip(&mut self.at).zip(&mut self.way) {
+            let next = to - *from;
+            longest = longest.max(next.norm());
+            along += next.dot(way);
+            square += way.norm_squared();
+            (*way, *from) = (next, *to);
+        }
+        let contraction = if square > 0.0 { along / square } else { 0.0 };
+        self.remaining = if self.settled_for < ACQUAINTED {
+            f64::INFINITY
+        } else if longest <= LEAST_ESTIMATE {
+            LEAST_ESTIMATE
+        } else {
+            longest / (1.0 - contraction.clamp(0.0, 1.0))
+        };
     }
 }
 
@@ -186,12 +216,16 @@ impl Joint {
     /// Sweeps, unless rest is near, then a joint step.
     fn round(&mut self, level: &mut Level<'_>, made: f64) -> Option<Step> {
         let way = 0.8 * level.lattice.pitch;
-        let sample_way = (2.0 * made).clamp(0.002, 0.1);
+        self.sight = (3.0 * made).clamp(0.02 * level.lattice.pitch, way);
+        let sample_way = self.sight;
         level.look(way, sample_way);
         if !self.near {
             for _ in 0..SWEEPS {
                 level.sweep();
                 level.touches.look_at_loads(&level.at);
+            }
+            for _ in 0..self.visits(level) {
+                level.sweep_over(&self.restless);
             }
             level.look(way, sample_way);
         }
@@ -215,7 +249,8 @@ fn carry_holds(level: &mut Level<'_>, joint: &mut Joint, start: &Start) {
         for _ in 0..SWEEPS {
             level.sweep();
         }
-        level.look(level.lattice.pitch, 0.1);
+        level.look(level.lattice.pitch, level.lattice.pitch);
+        joint.sight = level.lattice.pitch;
         joint.step(level);
     }
 }

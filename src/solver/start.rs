@@ -1,7 +1,13 @@
 //! Where a drape begins: the flat cloth in its place, its holds, and a breath of disorder.
 
 use super::{Grip, Problem, Unsolvable};
-use crate::{contact::Surface, forces::Clamp, lattice::Lattice, math::Vec3};
+use crate::{
+    contact::{Sites, Surface},
+    forces::Clamp,
+    lattice::Lattice,
+    math::Vec3,
+    threads,
+};
 
 /// The problem on one lattice.
 #[derive(Clone, Debug)]
@@ -100,11 +106,18 @@ impl Start {
         if self.held.iter().any(|held| *held) {
             return Some(());
         }
-        let sites = crate::contact::Sites::new(lattice);
-        let falls = crate::threads::map(sites.len(), |site| {
-            problem.bodies.fall(&sites.site(site).at(&self.at))
+        let sites = Sites::new(lattice);
+        let nodes = threads::map(self.at.len(), |node| problem.bodies.fall(&self.at[node]));
+        let cells = threads::map(sites.cells().len(), |cell| {
+            let falls = sites.places().map(|place| {
+                problem
+                    .bodies
+                    .fall(&sites.in_cell(cell, place).at(&self.at))
+            });
+            falls.flatten().reduce(f64::min)
         });
-        let fall = falls.into_iter().flatten().reduce(f64::min)?;
+        let falls = nodes.into_iter().chain(cells);
+        let fall = falls.flatten().reduce(f64::min)?;
         let fall = (fall - 1.5 * surface.node_reach()).max(0.0);
         for position in &mut self.at {
             position.z -= fall;

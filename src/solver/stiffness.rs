@@ -1,10 +1,10 @@
 //! The joint system's matrix: 3×3 blocks between nodes that share a force [gf/cm].
 
 use super::dissection::Neighbours;
-use crate::math::Mat3;
+use crate::math::{Mat3, Vec3};
 
 /// Blocks of a symmetric matrix, each pair once: in the row of the node that is eliminated first.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Stiffness {
     first: Vec<u32>,
     columns: Vec<u32>,
@@ -61,6 +61,24 @@ impl Stiffness {
                 *target += block;
             }
         }
+    }
+
+    /// The matrix times moves: the forces that answer them [gf].
+    pub(super) fn times(&self, moves: &[Vec3]) -> Vec<Vec3> {
+        let mut forces = vec![Vec3::zeros(); moves.len()];
+        for row in 0..moves.len() {
+            let range = self.first[row] as usize..self.first[row + 1] as usize;
+            let mut sum = Vec3::zeros();
+            for (column, block) in self.columns[range.clone()].iter().zip(&self.blocks[range]) {
+                let column = *column as usize;
+                sum += block * moves[column];
+                if column != row {
+                    forces[column] += block.tr_mul(&moves[row]);
+                }
+            }
+            forces[row] += sum;
+        }
+        forces
     }
 
     /// The later nodes that a node is joined with, itself first, and the blocks.

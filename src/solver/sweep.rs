@@ -17,18 +17,24 @@ const LONGEST_MOVE: f64 = 0.25;
 impl Level<'_> {
     /// One sweep over all colours. Returns the longest move [cm].
     pub(super) fn sweep(&mut self) -> f64 {
+        let colours = core::mem::take(&mut self.colours);
+        let longest = self.sweep_over(&colours);
+        self.colours = colours;
+        self.sweeps += 1;
+        longest
+    }
+
+    /// Visits some nodes, by colours. Returns the longest move [cm].
+    pub(super) fn sweep_over(&mut self, colours: &[Vec<u32>]) -> f64 {
         let mut longest = 0.0_f64;
-        for colour in 0..self.colours.len() {
-            let nodes = core::mem::take(&mut self.colours[colour]);
+        for nodes in colours {
             let moved = threads::map(nodes.len(), |k| self.visit(nodes[k] as usize));
             for (node, to) in nodes.iter().zip(moved) {
                 let here = &mut self.at[*node as usize];
                 longest = longest.max((to - *here).norm());
                 *here = to;
             }
-            self.colours[colour] = nodes;
         }
-        self.sweeps += 1;
         longest
     }
 
