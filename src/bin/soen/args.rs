@@ -19,7 +19,8 @@ pub(crate) enum Command {
     /// Exit codes: 0 certified, 2 bad input, 3 stopped before it was certified (the files are
     /// written and marked), 1 anything else. Ctrl-C stops and writes; a second one ends at once.
     Drape(Wish),
-    /// Reads a scene and all its files, solves nothing, and prints what was understood.
+    /// Reads a scene and all its files, finds out whether a drape can begin, solves nothing, and
+    /// prints what was understood.
     Check {
         /// The scene file.
         scene: PathBuf,
