@@ -167,6 +167,19 @@ fn a_certified_drape_exits_with_0_and_writes_every_file() {
     }
 }
 
+/// A joint system without unknowns once had a front without columns, and the program panicked.
+#[test]
+fn a_cloth_held_at_every_node_stays_as_it_is() {
+    let trial = Trial::new();
+    let held = HANG.replace("[10.0, 10.0]", "[2.0, 10.0]") + "[[hold]]\nedge = \"x-max\"\n";
+    trial.put("held.toml", held.as_bytes());
+    let said = trial.run(&["drape", "held.toml", "--out", "new", "--json"]);
+    assert_eq!(said.code, 0, "{}", said.err);
+    let report: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!(report["nodes"], 12);
+    assert_eq!(report["shape"]["lowest_cm"], 0.0);
+}
+
 #[test]
 fn a_drape_out_of_time_exits_with_3_and_says_so_everywhere() {
     let trial = Trial::new();
