@@ -53,8 +53,9 @@ pub(crate) struct Wish {
     /// Writes N shapes between start and rest as frame-0001.obj and .png, …
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=9999))]
     pub(crate) frames: u16,
-    /// Also writes map-NAME.png and, with all maps in it, drape.ply: strain-warp, strain-weft,
-    /// shear, contact-pressure or gap. May be given more than once.
+    /// Also writes map-NAME.png and, with all maps in it, drape.ply: strain-warp, strain-weft (%;
+    /// fractions in drape.ply), shear (degrees), contact-pressure (kPa) or gap (cm from each node
+    /// to the nearest body). May be given more than once.
     #[arg(long = "map", value_name = "NAME", value_parser = map)]
     pub(crate) maps: Vec<Map>,
 }
