@@ -7,6 +7,7 @@
 //! - `figures`: what the paper says of its figures is so, and the README gives the numbers.
 //! - `maps`: heat maps of cloths whose values are known beforehand.
 //! - `fuzz`: no bytes make the readers panic.
+//! - `starts`: no scene that they allow makes the solver panic.
 //! - `verification`, `friction`: drapes that mathematics knows, and where friction gives way.
 //! - `honesty`: what the certificate says is left to go is what is left.
 //! - `determinism`: the same bits on any number of threads.
@@ -30,5 +31,6 @@ mod picture;
 mod scenes;
 mod solved;
 mod specimen;
+mod starts;
 mod trial;
 mod verification;
