@@ -2,7 +2,7 @@
 //! derivatives: tensions along rods, couples that rods carry as pairs of forces.
 
 use crate::{
-    fabric::{Direction, Fabric, Yarn},
+    fabric::Fabric,
     forces::{Clamp, Laws},
     lattice::Lattice,
     math::Vec3,
@@ -53,17 +53,10 @@ impl Loads<'_> {
         loads
     }
 
-    fn direction(&self, yarn: Yarn) -> &Direction {
-        match yarn {
-            Yarn::Warp => &self.fabric.warp,
-            Yarn::Weft => &self.fabric.weft,
-        }
-    }
-
     /// (5).
     fn add_tensions(&self, at: &[Vec3], loads: &mut [Load]) {
         for rod in &self.lattice.rods {
-            let direction = self.direction(rod.yarn);
+            let direction = self.fabric.along(rod.yarn);
             let [a, b] = rod.nodes.map(|node| node as usize);
             let along = at[b] - at[a];
             let length = along.norm();
@@ -80,7 +73,7 @@ impl Loads<'_> {
     fn add_bends(&self, at: &[Vec3], loads: &mut [Load]) {
         for bend in &self.lattice.bends {
             let [a, b, c] = bend.nodes.map(|node| node as usize);
-            let stiffness = self.direction(bend.yarn).bending * bend.width / bend.length;
+            let stiffness = self.fabric.along(bend.yarn).bending * bend.width / bend.length;
             let (first, second) = couple(
                 &(at[b] - at[a]),
                 &(at[c] - at[b]),
@@ -99,7 +92,8 @@ impl Loads<'_> {
     fn add_clamps(&self, at: &[Vec3], loads: &mut [Load]) {
         for clamp in self.clamps {
             let [held, next] = clamp.nodes.map(|node| node as usize);
-            let stiffness = 2.0 * self.direction(clamp.yarn).bending * clamp.width / clamp.length;
+            let stiffness =
+                2.0 * self.fabric.along(clamp.yarn).bending * clamp.width / clamp.length;
             let (_, second) = couple(&clamp.slope, &(at[next] - at[held]), stiffness, 0.0);
             loads[next].add(second);
             loads[held].add(-second);
@@ -158,7 +152,7 @@ mod tests {
     use crate::{
         fabric::{Curve, Tension},
         forces::Sheet,
-        lattice::{Outline, Piece},
+        lattice::{Outline, sample::cut},
         scene::fabric,
     };
     use proptest::prelude::*;
@@ -171,21 +165,12 @@ mod tests {
         [false, false, true],
     ];
 
-    fn cut(outline: Outline, grain: f64, pitch: f64) -> Lattice {
-        let piece = Piece {
-            outline,
-            grain,
-            pitch,
-        };
-        piece.cut(pitch).unwrap()
-    }
-
     fn lattices() -> [Lattice; 3] {
         let towel = || Outline::rectangle(5.0, 3.0).unwrap();
         [
             cut(towel(), 0.0, 1.0),
-            cut(towel(), 0.6, 0.7),
-            cut(Outline::disc(2.6).unwrap(), 0.3, 0.8),
+            cut(towel(), 35.0, 0.7),
+            cut(Outline::disc(2.6).unwrap(), 17.0, 0.8),
         ]
     }
 

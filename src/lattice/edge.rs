@@ -46,17 +46,15 @@ impl Piece {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::Outline;
+    use crate::lattice::{
+        Outline,
+        sample::{piece, points},
+    };
 
     const EDGES: [Edge; 4] = [Edge::XMin, Edge::XMax, Edge::YMin, Edge::YMax];
 
     fn counts(outline: Outline, degrees: f64, pitch: f64) -> [usize; 4] {
-        let grain = degrees.to_radians();
-        let piece = Piece {
-            outline,
-            grain,
-            pitch,
-        };
+        let piece = piece(outline, degrees, pitch);
         let lattice = piece.cut(pitch).unwrap();
         EDGES.map(|edge| piece.edge_nodes(&lattice, edge).len())
     }
@@ -79,8 +77,8 @@ mod tests {
     /// A coarse lattice that ended short of a tip once let a cloth fall that was held there.
     #[test]
     fn a_pointed_outline_is_held_at_its_points_at_any_pitch() {
-        let points = [[4.7, 0.0], [0.0, 4.8], [-1.5, 0.0], [0.0, -5.9]].map(Vec2::from);
-        let kite = || Outline::polygon(points.to_vec(), Vec::new()).unwrap();
+        let tips = [[4.7, 0.0], [0.0, 4.8], [-1.5, 0.0], [0.0, -5.9]];
+        let kite = || Outline::polygon(points(&tips), Vec::new()).unwrap();
         for pitch in [0.1, 0.17, 0.34, 0.68, 1.36] {
             let counts = counts(kite(), 90.0, pitch);
             assert!(
