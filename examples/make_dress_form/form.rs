@@ -75,8 +75,12 @@ impl Form {
             };
             smooth(&LEVELS.each_ref().map(scaled), p.z)
         };
-        let (side, front, back) = (at(|l| l.side), at(|l| l.front), at(|l| l.back));
-        section(p.x, p.y, side, if p.y < 0.0 { front } else { back })
+        let depth = if p.y < 0.0 {
+            at(|l| l.front)
+        } else {
+            at(|l| l.back)
+        };
+        section(p.x, p.y, at(|l| l.side), depth)
     }
 
     /// The bust points are 17 cm apart. A mound falls off slowly upward and to the middle, where a
@@ -143,11 +147,11 @@ fn both(one: f64, other: f64, round: f64) -> f64 {
 /// A curve through points without waves between them: cubic, its slopes limited after Fritsch
 /// and Carlson (1980); beyond the ends it stays level.
 fn smooth<const N: usize>(points: &[(f64, f64); N], at: f64) -> f64 {
-    let steps: Vec<f64> = points
-        .windows(2)
-        .map(|w| (w[1].1 - w[0].1) / (w[1].0 - w[0].0))
-        .collect();
-    let slope = |i: usize| match (i.checked_sub(1).map(|before| steps[before]), steps.get(i)) {
+    let step = |i: usize| {
+        let ((x0, y0), (x1, y1)) = (*points.get(i)?, *points.get(i + 1)?);
+        Some((y1 - y0) / (x1 - x0))
+    };
+    let slope = |i: usize| match (i.checked_sub(1).and_then(step), step(i)) {
         // The harmonic mean keeps within three times the flatter step.
         (Some(before), Some(after)) if before * after > 0.0 => {
             2.0 * before * after / (before + after)

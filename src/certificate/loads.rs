@@ -2,7 +2,7 @@
 //! derivatives: tensions along rods, couples that rods carry as pairs of forces.
 
 use crate::{
-    fabric::{Direction, Fabric, Yarn},
+    fabric::Fabric,
     forces::{Clamp, Laws},
     lattice::Lattice,
     math::Vec3,
@@ -53,17 +53,10 @@ impl Loads<'_> {
         loads
     }
 
-    fn direction(&self, yarn: Yarn) -> &Direction {
-        match yarn {
-            Yarn::Warp => &self.fabric.warp,
-            Yarn::Weft => &self.fabric.weft,
-        }
-    }
-
     /// (5).
     fn add_tensions(&self, at: &[Vec3], loads: &mut [Load]) {
         for rod in &self.lattice.rods {
-            let direction = self.direction(rod.yarn);
+            let direction = self.fabric.along(rod.yarn);
             let [a, b] = rod.nodes.map(|node| node as usize);
             let along = at[b] - at[a];
             let length = along.norm();
@@ -80,7 +73,7 @@ impl Loads<'_> {
     fn add_bends(&self, at: &[Vec3], loads: &mut [Load]) {
         for bend in &self.lattice.bends {
             let [a, b, c] = bend.nodes.map(|node| node as usize);
-            let stiffness = self.direction(bend.yarn).bending * bend.width / bend.length;
+            let stiffness = self.fabric.along(bend.yarn).bending * bend.width / bend.length;
             let (first, second) = couple(
                 &(at[b] - at[a]),
                 &(at[c] - at[b]),
@@ -99,7 +92,8 @@ impl Loads<'_> {
     fn add_clamps(&self, at: &[Vec3], loads: &mut [Load]) {
         for clamp in self.clamps {
             let [held, next] = clamp.nodes.map(|node| node as usize);
-            let stiffness = 2.0 * self.direction(clamp.yarn).bending * clamp.width / clamp.length;
+            let stiffness =
+                2.0 * self.fabric.along(clamp.yarn).bending * clamp.width / clamp.length;
             let (_, second) = couple(&clamp.slope, &(at[next] - at[held]), stiffness, 0.0);
             loads[next].add(second);
             loads[held].add(-second);
@@ -150,4 +144,140 @@ fn couple(u: &Vec3, v: &Vec3, stiffness: f64, rest: f64) -> (Vec3, Vec3) {
         axis.cross(u) * (couple / (length_u * length_u)),
         -axis.cross(v) * (couple / (length_v * length_v)),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        fabric::{Curve, Tension},
+        forces::Sheet,
+        lattice::{Outline, sample::cut},
+        scene::fabric,
+    };
+    use proptest::prelude::*;
+
+    /// All laws together, and each alone.
+    const LAWS: [[bool; 3]; 4] = [
+        [true, true, true],
+        [true, false, false],
+        [false, true, false],
+        [false, false, true],
+    ];
+
+    fn lattices() -> [Lattice; 3] {
+        let towel = || Outline::rectangle(5.0, 3.0).unwrap();
+        [
+            cut(towel(), 0.0, 1.0),
+            cut(towel(), 35.0, 0.7),
+            cut(Outline::disc(2.6).unwrap(), 17.0, 0.8),
+        ]
+    }
+
+    /// Power laws, a straight one with other numbers along the weft, and a measured curve.
+    fn fabrics() -> Vec<Fabric> {
+        let mut curved = fabric("d").unwrap();
+        let curve = Curve::new(&[[0.0, 0.0], [0.01, 2.1], [0.05, 60.0]]).unwrap();
+        curved.warp.tension = Tension::Points(curve);
+        curved.weft.tension = Tension::Linear { modulus: 370.0 };
+        vec![fabric("a").unwrap(), fabric("c").unwrap(), curved]
+    }
+
+    /// Vices on some rods of either yarn, sloping away from where the cloth leaves them.
+    fn clamps(lattice: &Lattice) -> Vec<Clamp> {
+        let every_seventh = lattice.rods.iter().step_by(7);
+        every_seventh
+            .map(|rod| Clamp {
+                nodes: rod.nodes,
+                slope: Vec3::new(0.48, 0.64, 0.6),
+                yarn: rod.yarn,
+                length: rod.rest,
+                width: rod.width,
+            })
+            .collect()
+    }
+
+    /// Nodes stand up to a part of a pitch away from flat.
+    fn crumpled(lattice: &Lattice, away: &[[f64; 3]]) -> Vec<Vec3> {
+        let nodes = lattice.coordinates.iter().zip(away.iter().cycle());
+        nodes
+            .map(|(at, away)| Vec3::new(at.x, at.y, 0.0) + Vec3::from(*away) * lattice.pitch)
+            .collect()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn statics_and_the_slope_of_the_energy_agree(
+            away in prop::collection::vec(prop::array::uniform3(-0.3..0.3f64), 97),
+            fabric in prop::sample::select(fabrics()),
+        ) {
+            for lattice in lattices() {
+                let (at, clamps) = (crumpled(&lattice, &away), clamps(&lattice));
+                for [tension, bending, shear] in LAWS {
+                    let laws = Laws { tension, bending, shear };
+                    let sheet = Sheet::new(&lattice, &fabric, laws, &clamps);
+                    let loads = |own_only| Loads {
+                        lattice: &lattice, fabric: &fabric, laws, clamps: &clamps, own_only,
+                    }.at(&at);
+                    for (load, force) in loads(false).iter().zip(sheet.forces(&at)) {
+                        agree(load, &force)?;
+                    }
+                    // Node by node a sheet leaves out what a vice's own node feels: it is held.
+                    let free = |node: &usize| clamps.iter().all(|clamp| clamp.nodes[0] as usize != *node);
+                    let own = loads(true);
+                    for node in (0..at.len()).filter(free) {
+                        agree(&own[node], &sheet.force(node, &at, true))?;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The same force, and no more of it than the magnitudes come to.
+    fn agree(load: &Load, force: &Vec3) -> Result<(), TestCaseError> {
+        let error = (load.net - force).norm();
+        prop_assert!(error <= 1e-10 * load.sum, "{error} of {}", load.sum);
+        prop_assert!(load.net.norm() <= load.sum * (1.0 + 1e-12));
+        Ok(())
+    }
+
+    #[test]
+    fn magnitudes_are_summed_and_do_not_cancel() {
+        let lattice = cut(Outline::rectangle(3.0, 1.0).unwrap(), 0.0, 1.0);
+        let mut cloth = fabric("c").unwrap();
+        cloth.warp.tension = Tension::Linear { modulus: 100.0 };
+        cloth.weft.tension = Tension::Linear { modulus: 100.0 };
+        let at: Vec<Vec3> = lattice
+            .coordinates
+            .iter()
+            .map(|at| Vec3::new(1.1 * at.x, at.y, 0.0))
+            .collect();
+        let loads = Loads {
+            lattice: &lattice,
+            fabric: &cloth,
+            laws: Laws {
+                tension: true,
+                bending: false,
+                shear: false,
+            },
+            clamps: &[],
+            own_only: false,
+        }
+        .at(&at);
+        for (load, place) in loads.iter().zip(&lattice.coordinates) {
+            // Half a cell's width beside each yarn: 0.1 × 100 gf/cm × 0.5 cm a rod.
+            let inner = place.x.abs() < 1.0;
+            let weight = cloth.weight * if inner { 0.5 } else { 0.25 };
+            let pulls = if inner { 10.0 } else { 5.0 };
+            assert!((load.sum - weight - pulls).abs() < 1e-12, "{load:?}");
+            let net = if inner {
+                weight
+            } else {
+                (25.0 + weight * weight).sqrt()
+            };
+            assert!((load.net.norm() - net).abs() < 1e-12, "{load:?}");
+        }
+    }
 }

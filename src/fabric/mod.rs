@@ -74,3 +74,14 @@ pub struct Fabric {
     /// Along the weft.
     pub weft: Direction,
 }
+
+impl Fabric {
+    /// What was measured along a yarn.
+    #[must_use]
+    pub fn along(&self, yarn: Yarn) -> &Direction {
+        match yarn {
+            Yarn::Warp => &self.warp,
+            Yarn::Weft => &self.weft,
+        }
+    }
+}

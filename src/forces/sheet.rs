@@ -5,7 +5,7 @@ use super::{
     angle::{turn, turn_stiffness, turn_stiffness_positive},
 };
 use crate::{
-    fabric::{Direction, Fabric, Yarn},
+    fabric::{Fabric, Yarn},
     lattice::Lattice,
     math::{Mat3, Vec3},
     threads,
@@ -109,7 +109,6 @@ impl<'a> Sheet<'a> {
     /// Gives a lattice the laws of a fabric.
     #[must_use]
     pub fn new(lattice: &Lattice, fabric: &'a Fabric, laws: Laws, clamps: &[Clamp]) -> Self {
-        let direction = |yarn| direction(fabric, yarn);
         let rods = lattice
             .rods
             .iter()
@@ -119,7 +118,7 @@ impl<'a> Sheet<'a> {
                 yarn: rod.yarn,
                 rest: rod.rest,
                 width: rod.width,
-                floor: euler_load(direction(rod.yarn).bending, rod.rest),
+                floor: euler_load(fabric.along(rod.yarn).bending, rod.rest),
             });
         let bends = lattice
             .bends
@@ -127,7 +126,7 @@ impl<'a> Sheet<'a> {
             .filter(|_| laws.bending)
             .map(|bend| SheetAngle {
                 nodes: bend.nodes,
-                stiffness: direction(bend.yarn).bending * bend.width / bend.length,
+                stiffness: fabric.along(bend.yarn).bending * bend.width / bend.length,
                 rest: bend.rest_angle,
                 bend: true,
             });
@@ -152,7 +151,7 @@ impl<'a> Sheet<'a> {
             .map(|clamp| SheetClamp {
                 nodes: clamp.nodes,
                 slope: clamp.slope,
-                stiffness: 2.0 * direction(clamp.yarn).bending * clamp.width / clamp.length,
+                stiffness: 2.0 * fabric.along(clamp.yarn).bending * clamp.width / clamp.length,
             });
         let mut sheet = Self {
             fabric,
@@ -388,7 +387,7 @@ impl<'a> Sheet<'a> {
     }
 
     fn law(&self, rod: &SheetRod) -> RodLaw<'a> {
-        let tension = &direction(self.fabric, rod.yarn).tension;
+        let tension = &self.fabric.along(rod.yarn).tension;
         RodLaw {
             tension,
             rest: rod.rest,
@@ -477,14 +476,6 @@ impl SheetAngle {
 impl SheetClamp {
     fn along(&self, at: &[Vec3]) -> Vec3 {
         at[self.nodes[1] as usize] - at[self.nodes[0] as usize]
-    }
-}
-
-/// What was measured along a yarn.
-fn direction(fabric: &Fabric, yarn: Yarn) -> &Direction {
-    match yarn {
-        Yarn::Warp => &fabric.warp,
-        Yarn::Weft => &fabric.weft,
     }
 }
 

@@ -21,19 +21,12 @@ impl Lattice {
 
 #[cfg(test)]
 mod tests {
-    use crate::lattice::{Outline, Piece};
+    use crate::lattice::{Outline, sample::cut};
 
     #[test]
     fn nodes_of_one_colour_share_nothing() {
         for outline in [Outline::rectangle(7.0, 5.0), Outline::disc(4.0)] {
-            let (outline, grain, pitch) = (outline.unwrap(), 0.0, 0.5);
-            let lattice = Piece {
-                outline,
-                grain,
-                pitch,
-            }
-            .cut(pitch)
-            .unwrap();
+            let lattice = cut(outline.unwrap(), 0.0, 0.5);
             let mut colour_of = vec![9; lattice.coordinates.len()];
             for (colour, nodes) in lattice.colours().iter().enumerate() {
                 for node in nodes {

@@ -158,19 +158,11 @@ fn two_digits(length: f64, round: fn(f64) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fabric::Yarn;
+    use crate::{
+        fabric::Yarn,
+        lattice::sample::{cut, piece},
+    };
     use std::f64::consts::FRAC_PI_2;
-
-    fn cut(outline: Outline, degrees: f64, pitch: f64) -> Lattice {
-        let grain = degrees.to_radians();
-        Piece {
-            outline,
-            grain,
-            pitch,
-        }
-        .cut(pitch)
-        .unwrap()
-    }
 
     fn rectangle(width: f64, height: f64) -> Outline {
         Outline::rectangle(width, height).unwrap()
@@ -300,12 +292,7 @@ mod tests {
     /// degenerate.
     #[track_caller]
     fn check(outline: &Outline, degrees: f64, pitch: f64, part: f64) {
-        let (grain, outline) = (degrees.to_radians(), outline.clone());
-        let piece = Piece {
-            outline,
-            grain,
-            pitch,
-        };
+        let piece = piece(outline.clone(), degrees, pitch);
         let lattice = piece.cut(pitch).unwrap();
         let area = area_of_every_law(&lattice) / piece.outline.area();
         assert!((area - 1.0).abs() < part, "{area}");
@@ -382,13 +369,8 @@ mod tests {
 
     #[test]
     fn a_bias_edge_has_no_rods_along_it() {
-        let (outline, grain, pitch) = (rectangle(30.0, 10.0), 45.0_f64.to_radians(), 0.5);
-        let piece = Piece {
-            outline,
-            grain,
-            pitch,
-        };
-        let lattice = piece.cut(pitch).unwrap();
+        let piece = piece(rectangle(30.0, 10.0), 45.0, 0.5);
+        let lattice = piece.cut(0.5).unwrap();
         let lower = piece.edge_nodes(&lattice, crate::lattice::Edge::YMin);
         assert!(lower.len() > 40);
         let along = lattice
@@ -400,14 +382,7 @@ mod tests {
 
     #[test]
     fn an_outline_too_narrow_or_too_small_is_refused() {
-        let refusal = |outline: Outline, pitch: f64| {
-            let piece = Piece {
-                outline,
-                grain: 0.0,
-                pitch,
-            };
-            piece.cut(pitch).unwrap_err()
-        };
+        let refusal = |outline, pitch| piece(outline, 0.0, pitch).cut(pitch).unwrap_err();
         let dumbbell = [
             [0.0, 0.0],
             [10.0, 0.0],
@@ -442,23 +417,12 @@ mod tests {
 
     #[test]
     fn a_pitch_that_fits_is_named() {
-        let refusal = |outline: Outline, pitch: f64| {
-            let piece = Piece {
-                outline,
-                grain: 0.3,
-                pitch,
-            };
-            piece.cut(pitch).unwrap_err()
-        };
+        let refusal = |outline, pitch| piece(outline, 17.0, pitch).cut(pitch).unwrap_err();
         let towel = rectangle(50.0, 70.0);
         let CutError::TooFine { fitting, .. } = refusal(towel.clone(), 1e-4) else {
             panic!("a spacing of a micrometre is too fine");
         };
-        let reach = Piece {
-            outline: towel,
-            grain: 0.3,
-            pitch: 1.0,
-        };
+        let reach = piece(towel, 17.0, 1.0);
         let (_, high) = reach.outline.mapped(|point| reach.to_cloth(point)).bounds();
         assert!(check_count(2.0 * high, fitting).is_ok());
         assert!(check_count(2.0 * high, 0.9 * fitting).is_err());

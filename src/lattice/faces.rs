@@ -29,18 +29,11 @@ impl Lattice {
 
 #[cfg(test)]
 mod tests {
-    use crate::lattice::{Outline, Piece, ring::cross};
+    use crate::lattice::{Outline, ring::cross, sample::cut};
 
     #[test]
     fn faces_cover_the_cloth_and_all_turn_left() {
-        let (outline, grain, pitch) = (Outline::rectangle(12.0, 9.0).unwrap(), 0.6, 0.5);
-        let lattice = Piece {
-            outline,
-            grain,
-            pitch,
-        }
-        .cut(pitch)
-        .unwrap();
+        let lattice = cut(Outline::rectangle(12.0, 9.0).unwrap(), 35.0, 0.5);
         let mut whole = 0.0;
         for face in lattice.faces() {
             let [a, b, c] = face.map(|node| lattice.coordinates[node as usize]);

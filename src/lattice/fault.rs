@@ -162,15 +162,10 @@ fn lies_in(ring: &Ring, other: &Ring) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::Outline;
-
-    fn points(list: &[[f64; 2]]) -> Vec<Vec2> {
-        list.iter().map(|p| Vec2::new(p[0], p[1])).collect()
-    }
-
-    fn square(low: f64, high: f64) -> Vec<Vec2> {
-        points(&[[low, low], [high, low], [high, high], [low, high]])
-    }
+    use crate::lattice::{
+        Outline,
+        sample::{points, square},
+    };
 
     #[test]
     fn every_fault_is_named_with_its_place() {

@@ -234,18 +234,7 @@ fn in_triangle(corners: [Vec2; 4], missing: usize, point: Vec2) -> (f64, [f64; 4
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::{Outline, Piece};
-
-    fn lattice(outline: Outline, degrees: f64, pitch: f64) -> Lattice {
-        let grain = degrees.to_radians();
-        Piece {
-            outline,
-            grain,
-            pitch,
-        }
-        .cut(pitch)
-        .unwrap()
-    }
+    use crate::lattice::{Outline, sample::cut};
 
     fn value(place: Place, field: impl Fn(usize) -> f64) -> f64 {
         let parts = place.nodes.iter().zip(place.weights);
@@ -278,21 +267,21 @@ mod tests {
 
     #[test]
     fn linear_fields_come_back_on_regular_cells() {
-        let cloth = lattice(Outline::rectangle(10.0, 8.0).unwrap(), 90.0, 0.7);
+        let cloth = cut(Outline::rectangle(10.0, 8.0).unwrap(), 90.0, 0.7);
         check(&cloth, spiral(4.4));
         check(&cloth, cloth.coordinates.clone().into_iter());
     }
 
     #[test]
     fn linear_fields_come_back_on_skew_cells_and_a_little_outside() {
-        check(&lattice(Outline::disc(5.0).unwrap(), 0.0, 0.8), spiral(5.3));
-        let bias = lattice(Outline::rectangle(12.0, 11.0).unwrap(), 33.0, 0.9);
+        check(&cut(Outline::disc(5.0).unwrap(), 0.0, 0.8), spiral(5.3));
+        let bias = cut(Outline::rectangle(12.0, 11.0).unwrap(), 33.0, 0.9);
         check(&bias, spiral(5.7));
     }
 
     #[test]
     fn the_cell_that_contains_a_point_is_found() {
-        let disc = lattice(Outline::disc(5.0).unwrap(), 0.0, 0.8);
+        let disc = cut(Outline::disc(5.0).unwrap(), 0.0, 0.8);
         let locator = disc.locator();
         for cell in &disc.cells {
             let mut nodes = cell.to_vec();
@@ -306,7 +295,7 @@ mod tests {
 
     #[test]
     fn far_outside_a_position_is_carried_on_by_a_cell_at_most() {
-        let cloth = lattice(Outline::rectangle(10.0, 8.0).unwrap(), 0.0, 1.0);
+        let cloth = cut(Outline::rectangle(10.0, 8.0).unwrap(), 0.0, 1.0);
         let place = cloth.locate(Vec2::new(300.0, 0.5));
         assert_eq!(value(place, |node| cloth.coordinates[node].x), 6.0);
         assert_eq!(value(place, |node| cloth.coordinates[node].y), 0.5);
@@ -314,7 +303,7 @@ mod tests {
 
     #[test]
     fn the_nearest_node_is_the_nearest() {
-        let cloth = lattice(Outline::rectangle(10.0, 8.0).unwrap(), 0.0, 1.0);
+        let cloth = cut(Outline::rectangle(10.0, 8.0).unwrap(), 0.0, 1.0);
         let (node, distance) = cloth.nearest_node(Vec2::new(-7.0, -4.0)).unwrap();
         assert_eq!((node, distance), (0, 2.0));
         assert_eq!(Lattice::default().nearest_node(Vec2::zeros()), None);

@@ -16,6 +16,8 @@ mod grid;
 mod locate;
 mod outline;
 mod ring;
+#[cfg(test)]
+pub(crate) mod sample;
 mod seat;
 mod weave;
 

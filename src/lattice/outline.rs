@@ -250,14 +250,7 @@ impl Outline {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn points(list: &[[f64; 2]]) -> Vec<Vec2> {
-        list.iter().map(|p| Vec2::new(p[0], p[1])).collect()
-    }
-
-    fn square(low: f64, high: f64) -> Vec<Vec2> {
-        points(&[[low, low], [high, low], [high, high], [low, high]])
-    }
+    use crate::lattice::sample::{points, square};
 
     #[test]
     fn a_polygon_is_centred_and_its_holes_are_taken_off() {

@@ -252,11 +252,8 @@ mod tests {
 
     #[test]
     fn an_independent_reader_accepts_cloth_and_bodies() {
-        let (lattice, positions) = sample::wave(7, 5, 0.7);
-        let cloth = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
+        let placed = sample::wave(7, 5, 0.7);
+        let cloth = placed.cloth();
         let file = Gltf::from_slice(&glb(&cloth, &bodies(), &[])).unwrap();
         let names: Vec<_> = file
             .nodes()
@@ -274,7 +271,8 @@ mod tests {
         );
         let reader = cloth.reader(|_| file.blob.as_deref());
         let read: Vec<[f32; 3]> = reader.read_positions().unwrap().collect();
-        let expected: Vec<[f32; 3]> = positions
+        let expected: Vec<[f32; 3]> = placed
+            .positions
             .iter()
             .map(|p| [0.01 * p.x, 0.01 * p.z, -0.01 * p.y].map(|x| x as f32))
             .collect();
@@ -283,21 +281,14 @@ mod tests {
         assert!(normals.iter().all(|n| n[1] > 0.5), "{normals:?}");
         assert_eq!(
             reader.read_indices().unwrap().into_u32().count(),
-            6 * lattice.cells.len()
+            6 * placed.lattice.cells.len()
         );
     }
 
     #[test]
     fn bounds_lengths_and_indices_hold_for_every_mesh() {
-        let (lattice, positions) = sample::wave(7, 5, 0.7);
-        let bytes = glb(
-            &ClothMesh {
-                lattice: &lattice,
-                positions: &positions,
-            },
-            &bodies(),
-            &[],
-        );
+        let placed = sample::wave(7, 5, 0.7);
+        let bytes = glb(&placed.cloth(), &bodies(), &[]);
         assert_eq!(bytes.len() % 4, 0);
         let file = Gltf::from_slice(&bytes).unwrap();
         for mesh in file.meshes() {
@@ -322,15 +313,8 @@ mod tests {
 
     #[test]
     fn faces_keep_their_outside() {
-        let (lattice, positions) = sample::wave(3, 3, 0.7);
-        let bytes = glb(
-            &ClothMesh {
-                lattice: &lattice,
-                positions: &positions,
-            },
-            &bodies(),
-            &[],
-        );
+        let placed = sample::wave(3, 3, 0.7);
+        let bytes = glb(&placed.cloth(), &bodies(), &[]);
         let file = Gltf::from_slice(&bytes).unwrap();
         for mesh in file.meshes() {
             let primitive = mesh.primitives().next().unwrap();
@@ -355,11 +339,8 @@ mod tests {
 
     #[test]
     fn maps_become_attributes_and_colours() {
-        let (lattice, positions) = sample::wave(7, 5, 0.7);
-        let cloth = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
+        let placed = sample::wave(7, 5, 0.7);
+        let cloth = placed.cloth();
         let gap = vec![0.25; 34];
         let maps = [output::Map::Gap, output::Map::Shear]
             .map(|map| HeatMap::of(map, &cloth, None, Some(&gap)).unwrap());
@@ -387,12 +368,9 @@ mod tests {
 
     #[test]
     fn a_file_without_faces_is_still_a_file() {
-        let (lattice, mut positions) = sample::wave(2, 2, 0.7);
-        positions[0].x = f64::NAN;
-        let cloth = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
+        let mut placed = sample::wave(2, 2, 0.7);
+        placed.positions[0].x = f64::NAN;
+        let cloth = placed.cloth();
         let file = Gltf::from_slice(&glb(&cloth, &[], &[])).unwrap();
         assert_eq!(file.meshes().count(), 0);
     }

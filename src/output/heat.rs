@@ -266,12 +266,8 @@ mod tests {
     use crate::output::sample;
 
     fn map(map: Map, turn: impl Fn(f64, f64) -> Vec3) -> Vec<f64> {
-        let lattice = sample::rectangle(6, 5, 0.5);
-        let positions: Vec<Vec3> = lattice.coordinates.iter().map(|c| turn(c.x, c.y)).collect();
-        let cloth = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
+        let placed = sample::Placed::new([6, 5], 0.5, |c| turn(c.x, c.y));
+        let cloth = placed.cloth();
         HeatMap::of(map, &cloth, None, None).unwrap().values
     }
 
@@ -302,12 +298,14 @@ mod tests {
 
     #[test]
     fn a_cloth_that_lies_flat_presses_with_its_weight() {
-        let (lattice, positions) = sample::wave(6, 5, 0.5);
-        let cloth = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
-        let force: Vec<f64> = lattice.area.iter().map(|area| 0.014 * area).collect();
+        let placed = sample::wave(6, 5, 0.5);
+        let cloth = placed.cloth();
+        let force: Vec<f64> = placed
+            .lattice
+            .area
+            .iter()
+            .map(|area| 0.014 * area)
+            .collect();
         let heat = HeatMap::of(Map::ContactPressure, &cloth, Some(&force), None).unwrap();
         // 0.014 gf/cm² = 0.14 kg/m² × 9.80665 m/s².
         check(&heat.values, 0.14 * 9.806_65 / 1000.0);

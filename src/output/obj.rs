@@ -55,38 +55,37 @@ mod tests {
 
     #[test]
     fn positions_read_back_to_the_same_bits() {
-        let (lattice, mut positions) = sample::wave(7, 5, 0.7);
-        positions[3].x = -0.0;
-        positions[4].y = f64::MIN_POSITIVE;
-        positions[5].z = 1.0 / 3.0e17;
-        let text = obj(
-            "wave",
-            &ClothMesh {
-                lattice: &lattice,
-                positions: &positions,
-            },
-        );
+        let mut placed = sample::wave(7, 5, 0.7);
+        placed.positions[3].x = -0.0;
+        placed.positions[4].y = f64::MIN_POSITIVE;
+        placed.positions[5].z = 1.0 / 3.0e17;
+        let text = obj("wave", &placed.cloth());
         let bits: Vec<u64> = rows(&text, "v")
             .concat()
             .iter()
             .map(|x| x.to_bits())
             .collect();
-        let expected: Vec<u64> = positions.iter().flatten().map(|x| x.to_bits()).collect();
+        let expected: Vec<u64> = placed
+            .positions
+            .iter()
+            .flatten()
+            .map(|x| x.to_bits())
+            .collect();
         assert_eq!(bits, expected);
-        let coordinates: Vec<f64> = lattice.coordinates.iter().flatten().copied().collect();
+        let coordinates: Vec<f64> = placed
+            .lattice
+            .coordinates
+            .iter()
+            .flatten()
+            .copied()
+            .collect();
         assert_eq!(rows(&text, "vt").concat(), coordinates);
     }
 
     #[test]
     fn an_independent_reader_finds_every_cell() {
-        let (lattice, positions) = sample::wave(7, 5, 0.7);
-        let text = obj(
-            "two\nlines",
-            &ClothMesh {
-                lattice: &lattice,
-                positions: &positions,
-            },
-        );
+        let placed = sample::wave(7, 5, 0.7);
+        let text = obj("two\nlines", &placed.cloth());
         let options = tobj::LoadOptions {
             single_index: true,
             ..Default::default()
@@ -96,12 +95,13 @@ mod tests {
         let mesh = &models[0].mesh;
         assert_eq!(models.len(), 1);
         assert_eq!(models[0].name, "cloth");
-        assert_eq!(mesh.face_arities, vec![4; lattice.cells.len()]);
-        let corners: Vec<[f32; 3]> = lattice
+        assert_eq!(mesh.face_arities, vec![4; placed.lattice.cells.len()]);
+        let corners: Vec<[f32; 3]> = placed
+            .lattice
             .cells
             .iter()
             .flatten()
-            .map(|&node| positions[node as usize].map(|x| x as f32).into())
+            .map(|&node| placed.positions[node as usize].map(|x| x as f32).into())
             .collect();
         let read: Vec<[f32; 3]> = mesh
             .indices

@@ -55,11 +55,8 @@ mod tests {
 
     #[test]
     fn an_independent_reader_finds_positions_values_and_cells() {
-        let (lattice, positions) = sample::wave(7, 5, 0.7);
-        let cloth = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
+        let placed = sample::wave(7, 5, 0.7);
+        let cloth = placed.cloth();
         let gap = vec![0.25; 34];
         let maps =
             [Map::StrainWarp, Map::Gap].map(|m| HeatMap::of(m, &cloth, None, Some(&gap)).unwrap());
@@ -68,15 +65,15 @@ mod tests {
             .read_ply(&mut &bytes[..])
             .unwrap();
         let vertices = &read.payload["vertex"];
-        assert_eq!(vertices.len(), positions.len());
-        for (i, (vertex, p)) in vertices.iter().zip(&positions).enumerate() {
+        assert_eq!(vertices.len(), placed.positions.len());
+        for (i, (vertex, p)) in vertices.iter().zip(&placed.positions).enumerate() {
             assert_eq!(
                 ["x", "y", "z"].map(|k| vertex[k].clone()),
                 [p.x, p.y, p.z].map(Property::Double)
             );
             assert_eq!(
                 vertex["weft_cm"],
-                Property::Double(lattice.coordinates[i].y)
+                Property::Double(placed.lattice.coordinates[i].y)
             );
             let strain = (0.01 * maps[0].values[i]) as f32;
             assert_eq!(vertex["strain_warp"], Property::Float(strain));
@@ -87,7 +84,8 @@ mod tests {
             .iter()
             .map(|face| face["vertex_indices"].clone())
             .collect();
-        let expected: Vec<Property> = lattice
+        let expected: Vec<Property> = placed
+            .lattice
             .cells
             .iter()
             .map(|cell| Property::ListUInt(cell.to_vec()))

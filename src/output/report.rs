@@ -152,7 +152,7 @@ mod tests {
     };
 
     fn settled() -> Settled {
-        let (lattice, positions) = sample::wave(3, 2, 1.0);
+        let sample::Placed { lattice, positions } = sample::wave(3, 2, 1.0);
         Settled {
             contact: vec![0.0; positions.len()],
             lattice,

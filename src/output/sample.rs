@@ -1,6 +1,6 @@
 //! Cloth made by hand for the tests of this folder.
 
-use super::BodyMesh;
+use super::{BodyMesh, ClothMesh};
 use crate::{
     fabric::Yarn,
     lattice::{Corner, Lattice, Rod},
@@ -63,21 +63,41 @@ pub(super) fn rectangle(warp: u32, weft: u32, pitch: f64) -> Lattice {
     lattice
 }
 
+/// A cloth and where it is.
+pub(super) struct Placed {
+    pub(super) lattice: Lattice,
+    pub(super) positions: Vec<Vec3>,
+}
+
+impl Placed {
+    /// A rectangle with each cloth coordinate at its place [cm].
+    pub(super) fn new([warp, weft]: [u32; 2], pitch: f64, place: impl Fn(&Vec2) -> Vec3) -> Self {
+        let lattice = rectangle(warp, weft, pitch);
+        let positions = lattice.coordinates.iter().map(place).collect();
+        Self { lattice, positions }
+    }
+
+    pub(super) fn cloth(&self) -> ClothMesh<'_> {
+        ClothMesh {
+            lattice: &self.lattice,
+            positions: &self.positions,
+        }
+    }
+}
+
+/// A level square at a height [cm].
+pub(super) fn flat(nodes: u32, pitch: f64, height: f64) -> Placed {
+    Placed::new([nodes; 2], pitch, |c| Vec3::new(c.x, c.y, height))
+}
+
 /// A rectangle whose height waves along both yarns.
-pub(super) fn wave(warp: u32, weft: u32, pitch: f64) -> (Lattice, Vec<Vec3>) {
-    let lattice = rectangle(warp, weft, pitch);
+pub(super) fn wave(warp: u32, weft: u32, pitch: f64) -> Placed {
     let height = |c: &Vec2| 2.0 * libm::sin(0.3 * c.x) + libm::cos(0.4 * c.y);
-    let positions = lattice
-        .coordinates
-        .iter()
-        .map(|c| Vec3::new(c.x, c.y, height(c)))
-        .collect();
-    (lattice, positions)
+    Placed::new([warp, weft], pitch, |c| Vec3::new(c.x, c.y, height(c)))
 }
 
 /// A square over a ball with its top at the origin: radial lines fall over it and fold beside it.
-pub(super) fn draped(nodes: u32, pitch: f64, radius: f64) -> (Lattice, Vec<Vec3>) {
-    let lattice = rectangle(nodes, nodes, pitch);
+pub(super) fn draped(nodes: u32, pitch: f64, radius: f64) -> Placed {
     let place = |c: &Vec2| {
         let arc = c.norm();
         let azimuth = libm::atan2(c.y, c.x);
@@ -89,8 +109,7 @@ pub(super) fn draped(nodes: u32, pitch: f64, radius: f64) -> (Lattice, Vec<Vec3>
         let z = radius * (libm::cos(tilt) - 1.0) - 0.93 * fall;
         Vec3::new(out * libm::cos(azimuth), out * libm::sin(azimuth), z + 0.02)
     };
-    let positions = lattice.coordinates.iter().map(place).collect();
-    (lattice, positions)
+    Placed::new([nodes; 2], pitch, place)
 }
 
 /// A ball by meridians and parallels.

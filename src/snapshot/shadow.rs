@@ -113,16 +113,11 @@ fn covered(mut intervals: Vec<[f64; 2]>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::{Outline, Piece};
+    use crate::lattice::{Outline, sample::cut};
     use core::f64::consts::PI;
 
     fn lattice(outline: Outline) -> Lattice {
-        let piece = Piece {
-            outline,
-            grain: 0.0,
-            pitch: 1.0,
-        };
-        piece.cut(1.0).unwrap()
+        cut(outline, 0.0, 1.0)
     }
 
     /// The cloth's coordinates put in space.

@@ -117,3 +117,82 @@ fn multiply(down: &[f64], across: &[f64]) -> [[f64; TILE]; TILE] {
     }
     tile
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::DMatrix;
+    use proptest::prelude::*;
+
+    /// A unit lower triangle, from numbers between −1 and 1.
+    fn triangle(order: usize, numbers: &[f64]) -> DMatrix<f64> {
+        DMatrix::from_fn(order, order, |r, c| match r.cmp(&c) {
+            core::cmp::Ordering::Less => 0.0,
+            core::cmp::Ordering::Equal => 1.0,
+            core::cmp::Ordering::Greater => {
+                numbers[(r * order + c) % numbers.len()] / (order as f64).sqrt()
+            }
+        })
+    }
+
+    /// Its order, how many pivots are factored, and numbers to fill it with: on both sides of a
+    /// panel and of two, and off the tiles.
+    fn sizes() -> impl Strategy<Value = (usize, usize, Vec<f64>)> {
+        let numbers = prop::collection::vec(-1.0..1.0f64, 997);
+        (1..130usize, numbers)
+            .prop_flat_map(|(order, numbers)| (Just(order), 0..=order, Just(numbers)))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn the_columns_are_choleskys_and_the_rest_is_schurs((order, pivots, numbers) in sizes()) {
+            let lower = triangle(order, &numbers);
+            let matrix = &lower * lower.transpose();
+            let mut factored = matrix.as_slice().to_vec();
+            prop_assert!(factor(&mut factored, order, pivots));
+            let factored = DMatrix::from_vec(order, order, factored);
+            // A pivot of 1 on the whole diagonal: the triangle is Cholesky's own, and Schur's
+            // complement is what its last columns make.
+            let last = lower.columns_range(pivots..);
+            let rest = last * last.transpose();
+            for column in 0..order {
+                let expected = if column < pivots { &lower } else { &rest };
+                for row in column..order {
+                    let error = (factored[(row, column)] - expected[(row, column)]).abs();
+                    prop_assert!(error <= 1e-12, "({row}, {column}): {error}");
+                }
+            }
+            let by_nalgebra = matrix.cholesky().unwrap().l();
+            let columns = factored.columns_range(..pivots).lower_triangle();
+            let error = (columns - by_nalgebra.columns_range(..pivots)).amax();
+            prop_assert!(pivots == 0 || error <= 1e-12, "{error}");
+        }
+
+        #[test]
+        fn a_pivot_that_is_not_positive_is_refused_and_one_beyond_is_not_looked_at(
+            (order, pivots, numbers) in sizes(),
+            place in any::<prop::sample::Index>(),
+            bad in prop::sample::select(&[-1.0, -1e-6, f64::NAN, f64::NEG_INFINITY][..]),
+        ) {
+            let place = place.index(order);
+            let lower = triangle(order, &numbers);
+            let mut diagonal = DMatrix::identity(order, order);
+            diagonal[(place, place)] = bad.max(-1.0);
+            let mut matrix = &lower * diagonal * lower.transpose();
+            if bad.is_nan() || bad.is_infinite() {
+                matrix[(place, place)] = bad;
+            }
+            let factored = factor(matrix.as_mut_slice(), order, pivots);
+            prop_assert_eq!(factored, place >= pivots);
+        }
+    }
+
+    #[test]
+    fn no_pivots_are_always_found_positive() {
+        assert!(factor(&mut [], 0, 0));
+        assert!(factor(&mut [-1.0], 1, 0));
+        assert!(!factor(&mut [0.0], 1, 1));
+    }
+}

@@ -213,7 +213,8 @@ fn extend_add(matrix: &mut [f64], order: usize, rest: &[f64], places: &[u32]) {
 
 /// The Schur complement of the border.
 fn border_of(matrix: &[f64], order: usize, own: usize) -> Vec<f64> {
-    let columns = matrix[own * order..].chunks_exact(order);
+    // A front without nodes parts halves that share no force.
+    let columns = matrix[own * order..].chunks_exact(order.max(1));
     columns
         .flat_map(|column| column[own..].iter().copied())
         .collect()
@@ -342,4 +343,207 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
         }
     }
     sums.iter().sum::<f64>() + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::dissection::dissect, *};
+    use crate::math::{Mat3, Vec2};
+    use nalgebra::{DMatrix, DVector};
+    use proptest::prelude::*;
+
+    /// Numbers between −1 and 1 that look random (a multiplicative congruential generator).
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005) + 1;
+            (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        }
+
+        fn is_below(&mut self, share: f64) -> bool {
+            0.5 * (self.next() + 1.0) < share
+        }
+
+        fn block(&mut self) -> Mat3 {
+            Mat3::from_fn(|_, _| self.next())
+        }
+
+        fn forces(&mut self, nodes: usize) -> Vec<Vec3> {
+            (0..nodes)
+                .map(|_| Vec3::from_fn(|_, _| self.next()))
+                .collect()
+        }
+    }
+
+    /// Nodes side by side, some of them held, and a positive definite matrix on them: a spring of
+    /// random blocks between nodes at most two steps apart, and a soft one to the ground.
+    struct System {
+        plan: Plan,
+        blocks: Vec<(u32, u32, Mat3)>,
+        nodes: usize,
+        neighbours: Neighbours,
+    }
+
+    impl System {
+        /// `joined` and `held` are shares of all [-].
+        fn new([wide, high]: [u32; 2], joined: f64, held: f64, seed: u64) -> Self {
+            let mut numbers = Numbers(seed | 1);
+            let nodes = (wide * high) as usize;
+            let place = |node: u32| [node % wide, node / wide];
+            let coordinates: Vec<Vec2> = (0..wide * high)
+                .map(|node| place(node).map(f64::from))
+                .map(|at| Vec2::from(at) + Vec2::new(numbers.next(), numbers.next()) * 0.3)
+                .collect();
+            let mut pairs = Vec::new();
+            for a in 0..wide * high {
+                for b in a + 1..wide * high {
+                    let ([i, j], [k, l]) = (place(a), place(b));
+                    if i.abs_diff(k) + j.abs_diff(l) <= 2 && numbers.is_below(joined) {
+                        pairs.push([a, b]);
+                    }
+                }
+            }
+            let free = (0..wide * high)
+                .filter(|_| !numbers.is_below(held))
+                .collect();
+            let neighbours = Neighbours::new(nodes, &pairs);
+            let parts = dissect(free, &coordinates, &neighbours);
+            let mut system = Self {
+                plan: Plan::new(parts, &neighbours, nodes),
+                blocks: Vec::new(),
+                nodes,
+                neighbours,
+            };
+            system.join(&pairs, &mut numbers);
+            system
+        }
+
+        /// Springs `½·|p·u − q·v|²`, named in either order.
+        fn join(&mut self, pairs: &[[u32; 2]], numbers: &mut Numbers) {
+            for &[a, b] in pairs {
+                let (p, q) = (numbers.block(), numbers.block());
+                let between = -p.transpose() * q;
+                self.blocks.push((a, a, p.transpose() * p));
+                self.blocks.push((b, b, q.transpose() * q));
+                self.blocks.push(if numbers.is_below(0.5) {
+                    (a, b, between)
+                } else {
+                    (b, a, between.transpose())
+                });
+            }
+            for node in 0..self.nodes as u32 {
+                self.blocks.push((node, node, Mat3::identity() * 0.1));
+            }
+        }
+
+        fn factor(&self) -> Option<Factor> {
+            let mut stiffness = Stiffness::new(&self.neighbours, &self.plan.rank);
+            for (row, column, block) in &self.blocks {
+                stiffness.add(*row, *column, block);
+            }
+            Factor::new(&self.plan, &stiffness)
+        }
+
+        /// The moves that answer forces.
+        fn solve(&self, forces: &[Vec3]) -> Vec<Vec3> {
+            self.factor().unwrap().solve(&self.plan, forces)
+        }
+
+        fn is_held(&self, node: usize) -> bool {
+            self.plan.rank[node] == u32::MAX
+        }
+
+        /// The whole matrix; held nodes have the identity.
+        fn dense(&self) -> DMatrix<f64> {
+            let mut whole = DMatrix::zeros(3 * self.nodes, 3 * self.nodes);
+            for (row, column, block) in &self.blocks {
+                let (r, c) = (*row as usize, *column as usize);
+                if self.is_held(r) || self.is_held(c) {
+                    continue;
+                }
+                let mut here = whole.fixed_view_mut::<3, 3>(3 * r, 3 * c);
+                here += block;
+                if r != c {
+                    let mut mirror = whole.fixed_view_mut::<3, 3>(3 * c, 3 * r);
+                    mirror += block.transpose();
+                }
+            }
+            for node in (0..self.nodes).filter(|node| self.is_held(*node)) {
+                whole
+                    .fixed_view_mut::<3, 3>(3 * node, 3 * node)
+                    .fill_with_identity();
+            }
+            whole
+        }
+    }
+
+    fn systems() -> impl Strategy<Value = System> {
+        let sizes = [1..14u32, 1..14];
+        let joined = prop::sample::select(&[0.0, 0.2, 0.6, 1.0][..]);
+        let held = prop::sample::select(&[0.0, 0.1, 0.7, 1.0][..]);
+        (sizes, joined, held, any::<u64>())
+            .prop_map(|(size, joined, held, seed)| System::new(size, joined, held, seed))
+    }
+
+    impl core::fmt::Debug for System {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            write!(f, "{} nodes, {} blocks", self.nodes, self.blocks.len())
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn moves_are_those_of_a_dense_factor_and_held_nodes_stay(
+            system in systems(), seed in any::<u64>(),
+        ) {
+            let forces = Numbers(seed | 1).forces(system.nodes);
+            let moves = system.solve(&forces);
+            let mut sides = DVector::from_iterator(3 * system.nodes, forces.iter().flatten().copied());
+            for node in (0..system.nodes).filter(|node| system.is_held(*node)) {
+                sides.fixed_rows_mut::<3>(3 * node).fill(0.0);
+                prop_assert_eq!(moves[node], Vec3::zeros());
+            }
+            let expected = system.dense().cholesky().unwrap().solve(&sides);
+            let found = DVector::from_iterator(3 * system.nodes, moves.iter().flatten().copied());
+            let error = (found - &expected).amax();
+            prop_assert!(error <= 1e-10 * expected.amax(), "{error} of {}", expected.amax());
+        }
+
+        #[test]
+        fn a_matrix_is_refused_just_where_it_stops_being_positive_definite(mut system in systems()) {
+            let Some(free) = (0..system.nodes).find(|node| !system.is_held(*node)) else {
+                return Ok(());
+            };
+            // Taking λ off one diagonal block makes it singular at λ = 1/greatest of the inverse's.
+            let inverse = system.dense().cholesky().unwrap().inverse();
+            let block = inverse.fixed_view::<3, 3>(3 * free, 3 * free).into_owned();
+            let most = 1.0 / block.symmetric_eigenvalues().max();
+            let free = free as u32;
+            system.blocks.push((free, free, Mat3::identity() * (-most * (1.0 - 1e-6))));
+            prop_assert!(system.factor().is_some());
+            system.blocks.push((free, free, Mat3::identity() * (-most * 2e-6)));
+            prop_assert!(system.factor().is_none());
+            system.blocks.push((free, free, Mat3::repeat(f64::NAN)));
+            prop_assert!(system.factor().is_none());
+        }
+    }
+
+    /// Large enough that halves run side by side and the topmost front is shared out.
+    #[cfg(feature = "threads")]
+    #[test]
+    fn one_thread_and_three_give_the_same_bits() {
+        let system = System::new([56, 60], 1.0, 0.02, 7);
+        let forces = Numbers(3).forces(system.nodes);
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            let moves = pool.unwrap().install(|| system.solve(&forces));
+            let bits = moves.iter().flatten().map(|number| number.to_bits());
+            bits.collect::<Vec<u64>>()
+        };
+        assert!(3 * system.plan.root.nodes.len() * 3 * system.plan.root.own > 1 << 15);
+        assert!(on(1) == on(3));
+    }
 }

@@ -242,6 +242,45 @@ fn an_output_folder_that_cannot_be_written_is_the_systems_fault() {
     assert_eq!(std::fs::read(trial.path().join("taken")).unwrap(), b"kept");
 }
 
+#[test]
+fn a_drape_that_comes_to_nothing_makes_no_folder() {
+    let trial = Trial::new();
+    let missing = SCENE.replace("fabric = \"c\"", "");
+    let inside = SCENE.replace("25.0]", "6.0]");
+    let falls = SCENE.replace("[[hold]]\npoint_cm = [-10.0, 10.0]\n", "");
+    let falls = falls.replace("0.0, 5.0]", "0.0, 50.0]");
+    std::fs::create_dir(trial.path().join("stood")).unwrap();
+    for scene in [missing, inside, falls] {
+        trial.put("scene.toml", scene.as_bytes());
+        for out in [
+            "new",
+            "deep/er",
+            "deep/../new",
+            "stood/below",
+            "stood",
+            "out",
+        ] {
+            let said = trial.run(&["drape", "scene.toml", "--out", out]);
+            assert_eq!(said.code, 2, "{}", said.err);
+            let names = ["out", "scene.toml", "stood"];
+            assert_eq!(listed(&trial, ""), names, "{out}: {}", said.err);
+            assert_eq!(listed(&trial, "stood"), [""; 0], "{out}: {}", said.err);
+            assert_eq!(listed(&trial, "out"), ["drape.obj", "mine.txt"], "{out}");
+            assert!(trial.kept());
+        }
+    }
+}
+
+/// What stands in a folder, by name.
+fn listed(trial: &Trial, folder: &str) -> Vec<String> {
+    let entries = std::fs::read_dir(trial.path().join(folder)).unwrap();
+    let mut names: Vec<String> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
 fn put_scene(trial: &Trial, right: &str, instead: &str) {
     let scene = SCENE.replacen(right, instead, 1);
     assert_ne!(scene, SCENE, "{right:?} is not in the scene");

@@ -5,7 +5,7 @@
 //! from weft but by the fabric (exchange).
 
 use crate::specimen::{
-    crumpled, disc, fabric, flat, linear, shapes, towel, weightless, whole_matrix,
+    crumpled, disc, fabric, flat, linear, shapes, slope, towel, weightless, whole_matrix,
 };
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -261,12 +261,7 @@ fn check_gradient(sheet: &Sheet<'_>, at: &[Vec3]) -> Result<(), TestCaseError> {
     let mut there = at.to_vec();
     for (node, force) in forces.iter().enumerate() {
         for axis in 0..3 {
-            let here = at[node][axis];
-            there[node][axis] = here + STEP;
-            let ahead = sheet.energy(&there);
-            there[node][axis] = here - STEP;
-            let slope = (ahead - sheet.energy(&there)) / (2.0 * STEP);
-            there[node][axis] = here;
+            let slope = slope(&mut there, [node, axis], STEP, |at| sheet.energy(at));
             let error = (slope + force[axis]).abs();
             prop_assert!(
                 error <= 1e-7 * greatest,

@@ -1,6 +1,6 @@
 //! The laws of a touch against their own definitions, by themselves and gathered over a cloth.
 
-use crate::specimen::{crumpled, disc, shapes, whole_matrix};
+use crate::specimen::{crumpled, disc, shapes, slope, whole_matrix};
 use proptest::prelude::*;
 use soen::{
     body::{Bodies, Part, Shape},
@@ -71,20 +71,14 @@ proptest! {
         let greatest = forces.iter().map(Vec3::norm).fold(0.0, f64::max);
         let whole = whole_matrix(at.len(), |add| touches.stiffness(&at, add));
         let mut there = at.clone();
-        let step = 1e-7;
-        for node in 0..at.len() {
-            for axis in 0..3 {
-                let here = at[node][axis];
-                there[node][axis] = here + step;
-                let ahead = touches.energy(&there);
-                there[node][axis] = here - step;
-                let slope = (ahead - touches.energy(&there)) / (2.0 * step);
-                there[node][axis] = here;
-                let error = (slope + forces[node][axis]).abs();
+        for (node, sum) in forces.iter().enumerate() {
+            for (axis, force) in sum.iter().enumerate() {
+                let slope = slope(&mut there, [node, axis], 1e-7, |at| touches.energy(at));
+                let error = (slope + force).abs();
                 prop_assert!(error <= 1e-5 * greatest, "{error} of {greatest}");
             }
             let (force, stiffness) = touches.pull(node, &at);
-            let error = (force - forces[node]).norm();
+            let error = (force - sum).norm();
             prop_assert!(error <= 1e-12 * greatest, "node {node}: {error} of {greatest}");
             let block = whole.fixed_view::<3, 3>(3 * node, 3 * node);
             let error = (stiffness - block).amax();

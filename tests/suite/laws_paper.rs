@@ -3,7 +3,7 @@
 use crate::specimen::{crumpled, fabric, linear, shapes, towel};
 use proptest::prelude::*;
 use soen::{
-    fabric::{Direction, Fabric, Yarn},
+    fabric::Fabric,
     forces::{Laws, RodLaw, Sheet, paper_forces, turn, turn_stiffness},
     lattice::Lattice,
     math::{Mat3, Vec3},
@@ -67,13 +67,6 @@ impl Own<'_> {
         sum
     }
 
-    fn direction(&self, yarn: Yarn) -> &Direction {
-        match yarn {
-            Yarn::Warp => &self.cloth.warp,
-            Yarn::Weft => &self.cloth.weft,
-        }
-    }
-
     /// (5), towards each neighbour.
     fn add_tensions(&self, at: &[Vec3], sum: &mut (Vec3, Mat3)) {
         for rod in self
@@ -84,7 +77,7 @@ impl Own<'_> {
         {
             let other = rod.nodes[usize::from(rod.nodes[0] == self.node)];
             let along = at[other as usize] - at[self.node as usize];
-            let direction = self.direction(rod.yarn);
+            let direction = self.cloth.along(rod.yarn);
             let pi = core::f64::consts::PI;
             let law = RodLaw {
                 tension: &direction.tension,
@@ -106,7 +99,7 @@ impl Own<'_> {
             .filter(|bend| bend.nodes[1] == self.node)
         {
             let [a, b, c] = bend.nodes.map(|node| at[node as usize]);
-            let stiffness = self.direction(bend.yarn).bending * bend.width / bend.length;
+            let stiffness = self.cloth.along(bend.yarn).bending * bend.width / bend.length;
             let (u, v, rest) = (b - a, c - b, bend.rest_angle);
             let law = turn(&u, &v, stiffness, rest);
             sum.0 += law.by_v - law.by_u;

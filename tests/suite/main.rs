@@ -5,7 +5,9 @@
 //! - `bad_input`, `bad_files`: each slip gets its message and its exit code, and costs no file.
 //! - `scenes`: every scene is certified and looks as it did, in figures and in a picture.
 //! - `figures`: what the paper says of its figures is so, and the README gives the numbers.
+//! - `maps`: heat maps of cloths whose values are known beforehand.
 //! - `fuzz`: no bytes make the readers panic.
+//! - `starts`: no scene that they allow makes the solver panic.
 //! - `verification`, `friction`: drapes that mathematics knows, and where friction gives way.
 //! - `honesty`: what the certificate says is left to go is what is left.
 //! - `determinism`: the same bits on any number of threads.
@@ -24,9 +26,11 @@ mod laws;
 mod laws_contact;
 mod laws_paper;
 mod layers;
+mod maps;
 mod picture;
 mod scenes;
 mod solved;
 mod specimen;
+mod starts;
 mod trial;
 mod verification;

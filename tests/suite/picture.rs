@@ -49,7 +49,7 @@ fn difference(old: &[u8], new: &[u8]) -> Option<String> {
 }
 
 /// Width, height and the channels of an RGB picture.
-fn pixels(png: &[u8]) -> ([u32; 2], Vec<u8>) {
+pub(crate) fn pixels(png: &[u8]) -> ([u32; 2], Vec<u8>) {
     let mut reader = png::Decoder::new(Cursor::new(png)).read_info().unwrap();
     let mut channels = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut channels).unwrap();

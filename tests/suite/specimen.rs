@@ -79,6 +79,23 @@ pub(crate) fn crumpled(lattice: &Lattice, part: f64) -> impl Strategy<Value = Ve
     })
 }
 
+/// How an energy changes with one coordinate of one node, by central differences: a step to either
+/// side, and back.
+pub(crate) fn slope(
+    there: &mut [Vec3],
+    [node, axis]: [usize; 2],
+    step: f64,
+    energy: impl Fn(&[Vec3]) -> f64,
+) -> f64 {
+    let here = there[node][axis];
+    there[node][axis] = here + step;
+    let ahead = energy(there);
+    there[node][axis] = here - step;
+    let slope = (ahead - energy(there)) / (2.0 * step);
+    there[node][axis] = here;
+    slope
+}
+
 /// The blocks that `fill` hands out, as one full symmetric matrix.
 pub(crate) fn whole_matrix(
     nodes: usize,
@@ -108,12 +125,7 @@ pub(crate) fn scene(text: &str) -> Scene {
 /// Where a scene comes to rest, or where it is after so many rounds on all levels.
 pub(crate) fn hang(text: &str, rounds: usize) -> Settled {
     let scene = scene(text);
-    let mut left = rounds;
-    let mut watch = |_: &Progress| {
-        left = left.saturating_sub(1);
-        left > 0
-    };
-    settle(&scene.problem, &scene.settings, &mut watch).unwrap()
+    settled(&scene, &scene.settings, rounds)
 }
 
 /// Where a scene comes to rest at another tolerance.
@@ -123,10 +135,14 @@ pub(crate) fn hang_at(text: &str, tolerance: f64, rounds: usize) -> Settled {
         tolerance,
         ..scene.settings
     };
+    settled(&scene, &settings, rounds)
+}
+
+fn settled(scene: &Scene, settings: &Settings, rounds: usize) -> Settled {
     let mut left = rounds;
     let mut watch = |_: &Progress| {
         left = left.saturating_sub(1);
         left > 0
     };
-    settle(&scene.problem, &settings, &mut watch).unwrap()
+    settle(&scene.problem, settings, &mut watch).unwrap()
 }

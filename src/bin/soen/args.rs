@@ -19,7 +19,8 @@ pub(crate) enum Command {
     /// Exit codes: 0 certified, 2 bad input, 3 stopped before it was certified (the files are
     /// written and marked), 1 anything else. Ctrl-C stops and writes; a second one ends at once.
     Drape(Wish),
-    /// Reads a scene and all its files, solves nothing, and prints what was understood.
+    /// Reads a scene and all its files, finds out whether a drape can begin, solves nothing, and
+    /// prints what was understood.
     Check {
         /// The scene file.
         scene: PathBuf,
@@ -52,8 +53,9 @@ pub(crate) struct Wish {
     /// Writes N shapes between start and rest as frame-0001.obj and .png, …
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=9999))]
     pub(crate) frames: u16,
-    /// Also writes map-NAME.png and, with all maps in it, drape.ply: strain-warp, strain-weft,
-    /// shear, contact-pressure or gap. May be given more than once.
+    /// Also writes map-NAME.png and, with all maps in it, drape.ply: strain-warp, strain-weft (%;
+    /// fractions in drape.ply), shear (degrees), contact-pressure (kPa) or gap (cm from each node
+    /// to the nearest body). May be given more than once.
     #[arg(long = "map", value_name = "NAME", value_parser = map)]
     pub(crate) maps: Vec<Map>,
 }

@@ -1,4 +1,4 @@
-//! `soen check SCENE`: what was understood, solving nothing.
+//! `soen check SCENE`: what was understood, and whether a drape can begin, solving nothing.
 
 use crate::{
     failure::{DONE, Failure},
@@ -8,16 +8,13 @@ use soen::{
     body::Nature,
     lattice::Outline,
     scene::{self, InspectedMesh, Scene},
-    solver::{ForceModel, Grip, Hold, Unsolvable},
+    solver::{self, ForceModel, Grip, Hold},
 };
 use std::{fmt::Write, path::Path, process::ExitCode};
 
 pub(crate) fn check(path: &Path) -> Result<ExitCode, Failure> {
     let scene = scene::read(path)?;
-    let piece = &scene.problem.piece;
-    let lattice = piece
-        .cut(piece.pitch)
-        .map_err(|error| scene.refusal(Unsolvable::Cut(error)))?;
+    let lattice = solver::prepare(&scene.problem).map_err(|error| scene.refusal(error))?;
     say(&understood(&scene, lattice.coordinates.len()))?;
     Ok(DONE)
 }

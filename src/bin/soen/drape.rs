@@ -50,12 +50,23 @@ pub(crate) fn drape(wish: &Wish) -> Result<ExitCode, Failure> {
     })
 }
 
-/// Finds out before the long work whether its result can be kept.
+/// Finds out before the long work whether its result can be kept, and leaves no trace of it: a
+/// drape that comes to nothing makes no folder.
 fn try_folder(folder: &Path) -> Result<(), Failure> {
-    let trial = folder.join(".soen-trial");
-    output::write(&trial, b"")?;
-    fs::remove_file(&trial)
-        .map_err(|error| Failure::System(format!("cannot write in {}: {error}", folder.display())))
+    let absent = folder.ancestors().take_while(|above| !above.exists());
+    let absent: Vec<&Path> = absent.collect();
+    let trial = folder.join(format!(".soen-{}.trial", std::process::id()));
+    let kept = output::write(&trial, b"").map_err(Failure::from);
+    let cleared = kept.and_then(|()| {
+        fs::remove_file(&trial).map_err(|error| {
+            Failure::System(format!("cannot write in {}: {error}", folder.display()))
+        })
+    });
+    for made in absent {
+        // The deepest first. What is not empty is not ours alone, and stays.
+        let _ = fs::remove_dir(made);
+    }
+    cleared
 }
 
 #[cfg(feature = "threads")]

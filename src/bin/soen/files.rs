@@ -100,10 +100,10 @@ fn heat_maps(
     wished.iter().copied().filter_map(of).collect()
 }
 
-/// Distance of each node to the nearest body [cm].
+/// Distance of each node to the nearest body [cm], negative inside a solid; `NaN` without bodies.
 fn gaps(scene: &Scene, cloth: &ClothMesh<'_>) -> Vec<f64> {
-    // Farther than any cloth is from its body [cm].
-    const REACH: f64 = 1e3;
+    // Farther apart than a scene can place two things [cm].
+    const REACH: f64 = 1e6;
     let gap = |at: &Vec3| {
         let near = scene.problem.bodies.near(at, REACH);
         near.iter()

@@ -136,11 +136,8 @@ mod tests {
     };
 
     fn draped(view: &View<'_>) -> Vec<u8> {
-        let (lattice, positions) = sample::draped(41, 1.5, 12.0);
-        let cloth = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
+        let placed = sample::draped(41, 1.5, 12.0);
+        let cloth = placed.cloth();
         picture(
             &cloth,
             &[sample::ball(Vec3::new(0.0, 0.0, -12.0), 12.0, 30)],
@@ -174,11 +171,8 @@ mod tests {
 
     #[test]
     fn heat_and_caption_change_the_picture() {
-        let (lattice, positions) = sample::draped(41, 1.5, 12.0);
-        let cloth = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
+        let placed = sample::draped(41, 1.5, 12.0);
+        let cloth = placed.cloth();
         let heat = HeatMap::of(Map::Shear, &cloth, None, None).unwrap();
         let plain = draped(&SMALL);
         assert!(
@@ -197,18 +191,15 @@ mod tests {
 
     #[test]
     fn nothing_and_broken_shapes_still_give_a_picture() {
-        let (lattice, mut positions) = sample::wave(5, 5, 1.0);
+        let mut placed = sample::wave(5, 5, 1.0);
         let empty = ClothMesh {
-            lattice: &lattice,
             positions: &[],
+            ..placed.cloth()
         };
         assert!(!picture(&empty, &[], &View { width: 0, ..SMALL }).is_empty());
-        positions[7] = Vec3::new(f64::NAN, f64::INFINITY, 1e300);
-        positions[12] = Vec3::repeat(1e200);
-        let broken = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
+        placed.positions[7] = Vec3::new(f64::NAN, f64::INFINITY, 1e300);
+        placed.positions[12] = Vec3::repeat(1e200);
+        let broken = placed.cloth();
         let heat = HeatMap {
             map: Map::Gap,
             values: vec![f64::INFINITY, f64::NAN, 1e300],

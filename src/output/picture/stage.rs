@@ -275,25 +275,12 @@ fn smooth_step(start: f64, end: f64, x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{lattice::Lattice, output::sample};
-
-    fn flat(lattice: &Lattice, z: f64) -> Vec<Vec3> {
-        lattice
-            .coordinates
-            .iter()
-            .map(|c| Vec3::new(c.x, c.y, z))
-            .collect()
-    }
+    use crate::output::sample;
 
     fn seen_from_above(cloth_at: f64) -> Option<Met> {
-        let lattice = sample::rectangle(5, 5, 1.0);
-        let positions = flat(&lattice, cloth_at);
-        let cloth = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
+        let cloth = sample::flat(5, 1.0, cloth_at);
         let table = sample::cuboid(Vec3::new(-9.0, -9.0, -5.0), Vec3::new(9.0, 9.0, 0.0));
-        let stage = Stage::new(&cloth, &[table], None);
+        let stage = Stage::new(&cloth.cloth(), &[table], None);
         let slanted = Vec3::new(0.3, 0.2, -1.0).normalize();
         stage
             .look(&Ray::new(slanted * -40.0, slanted), 1e-3)
@@ -309,28 +296,18 @@ mod tests {
 
     #[test]
     fn a_body_stands_on_the_floor_and_a_cloth_hangs_above_it() {
-        let lattice = sample::rectangle(5, 5, 1.0);
-        let positions = flat(&lattice, 3.0);
-        let cloth = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
+        let cloth = sample::flat(5, 1.0, 3.0);
         let table = sample::cuboid(Vec3::new(-1.0, -1.0, -5.0), Vec3::new(1.0, 1.0, 0.0));
-        assert_eq!(Stage::new(&cloth, &[table], None).floor, -5.0);
-        let alone = Stage::new(&cloth, &[], None).floor;
+        assert_eq!(Stage::new(&cloth.cloth(), &[table], None).floor, -5.0);
+        let alone = Stage::new(&cloth.cloth(), &[], None).floor;
         assert!((2.5..3.0).contains(&alone), "{alone}");
     }
 
     #[test]
     fn a_table_keeps_the_lamp_from_what_is_under_it() {
         let table = sample::cuboid(Vec3::new(-9.0, -9.0, 5.0), Vec3::new(9.0, 9.0, 6.0));
-        let lattice = sample::rectangle(3, 3, 1.0);
-        let positions = flat(&lattice, 0.0);
-        let cloth = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
-        let stage = Stage::new(&cloth, &[table], None);
+        let cloth = sample::flat(3, 1.0, 0.0);
+        let stage = Stage::new(&cloth.cloth(), &[table], None);
         let at = |z| Vec3::new(0.0, 0.0, z);
         assert_eq!(
             [
@@ -346,14 +323,9 @@ mod tests {
 
     #[test]
     fn the_camera_looks_at_the_near_part_of_a_large_body() {
-        let lattice = sample::rectangle(3, 3, 1.0);
-        let positions = flat(&lattice, 0.0);
-        let cloth = ClothMesh {
-            lattice: &lattice,
-            positions: &positions,
-        };
+        let cloth = sample::flat(3, 1.0, 0.0);
         let hall = sample::cuboid(Vec3::repeat(-1000.0), Vec3::new(1000.0, 1000.0, -0.1));
-        let subject = Stage::new(&cloth, &[hall], None).subject();
+        let subject = Stage::new(&cloth.cloth(), &[hall], None).subject();
         assert!(subject.iter().all(|p| p.amax() < 5.0), "{subject:?}");
     }
 }
