@@ -150,8 +150,7 @@ impl Joint {
         let factor = Factor::new(&self.plan, &self.exact)?;
         let moves = factor.solve(&self.plan, forces);
         let asked = longest(&moves);
-        // Written so that an answer that is not a number is not little.
-        if !(asked < NEAR * level.lattice.pitch) {
+        if asked.is_nan() || asked >= NEAR * level.lattice.pitch {
             return None;
         }
         let made = self.descend(level, &factor, &moves, &moves);

@@ -12,6 +12,7 @@ mod model;
 mod rest;
 mod start;
 mod stiffness;
+mod substitution;
 mod sweep;
 
 use crate::{

@@ -4,7 +4,7 @@ use crate::specimen::{crumpled, disc, shapes, slope, whole_matrix};
 use proptest::prelude::*;
 use soen::{
     body::{Bodies, Part, Shape},
-    contact::{Friction, Sites, Skin, Surface, Touches},
+    contact::{Friction, Skin, Surface, Touches},
     lattice::Lattice,
     math::{Pose, Vec3},
 };

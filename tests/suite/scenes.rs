@@ -30,6 +30,7 @@ scenes! {
     tension_alone_on_a_ball "fig12a-tension-only"
     all_laws_on_a_ball "fig12b-full"
     thin_cloth_on_two_balls "fig12c-two-balls"
+    over_a_table "table"
     two_balls "two-balls"
 }
 
