@@ -225,7 +225,11 @@ fn samples(place: impl Fn(usize) -> f64) -> impl Iterator<Item = (f64, f64)> {
     (0..16).map(move |k| (place(k % 4), place(k / 4)))
 }
 
-fn blend(corners: &[Vec3; 4], u: f64, v: f64) -> Vec3 {
-    (corners[0] * (1.0 - u) + corners[1] * u) * (1.0 - v)
-        + (corners[3] * (1.0 - u) + corners[2] * u) * v
+/// A place in a cell, on the two triangles that it is shown as.
+fn blend([a, b, c, d]: &[Vec3; 4], u: f64, v: f64) -> Vec3 {
+    if u >= v {
+        a + (b - a) * u + (c - b) * v
+    } else {
+        a + (c - d) * u + (d - a) * v
+    }
 }

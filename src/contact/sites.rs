@@ -23,7 +23,7 @@ pub struct Sites {
 }
 
 /// Samples of a cell stand no farther apart than this [cm], where 4 to 8 a side allow it.
-const SAMPLE_DISTANCE: f64 = 0.25;
+const SAMPLE_DISTANCE: f64 = 0.2;
 
 impl Sites {
     /// The sites of a lattice.
@@ -69,7 +69,12 @@ impl Sites {
     /// The site at a place in a cell.
     #[must_use]
     pub fn in_cell(&self, cell: usize, [u, v]: [f64; 2]) -> Site {
-        let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v];
+        // On the two triangles that the cell is shown as, parted from its first node to its third.
+        let weights = if u >= v {
+            [1.0 - u, u - v, v, 0.0]
+        } else {
+            [1.0 - v, 0.0, u, v - u]
+        };
         let nodes = self.cells[cell];
         Site {
             nodes,
