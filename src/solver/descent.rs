@@ -26,10 +26,16 @@ pub(super) fn descend(
     settings: &Settings,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Settled, Unsolvable> {
-    let lattices = cuts(problem)?;
+    let mut lattices = cuts(problem)?;
     let surface = surface(problem);
-    let finest = &lattices[lattices.len() - 1];
-    Start::new(problem, finest)?.check(problem, finest)?;
+    let finest = prepare(problem)?;
+    // A coarse cut may miss a hold or the body below; what is asked for is the finest.
+    lattices.pop();
+    lattices.retain(|lattice| {
+        let start = Start::new(problem, lattice);
+        start.is_ok_and(|mut start| start.fall(problem, &surface, lattice).is_some())
+    });
+    lattices.push(finest);
     let mut before: Option<(&Lattice, Vec<Vec3>)> = None;
     let mut work = Vec::new();
     let mut run = Run {

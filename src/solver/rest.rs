@@ -72,11 +72,11 @@ impl Run<'_> {
             return self.rest_by_sweeps(level, case, number);
         }
         let mut joint = Joint::new(level);
-        if number == 0 {
-            carry_holds(level, &mut joint, start);
-        }
         let last = number + 1 == self.levels;
         let mut standing = Standing::new(level);
+        if number == 0 {
+            self.carry_holds(level, &mut joint, start, &standing);
+        }
         for round in 0.. {
             if !self.goes_on(level, number, &standing) {
                 break;
@@ -100,6 +100,37 @@ impl Run<'_> {
             }
         }
         standing.remaining
+    }
+
+    /// Carries the holds to where they belong, a part of a pitch at a time.
+    fn carry_holds(
+        &mut self,
+        level: &mut Level<'_>,
+        joint: &mut Joint,
+        start: &Start,
+        standing: &Standing,
+    ) {
+        let way = start
+            .carry
+            .iter()
+            .map(|(_, carry)| carry.norm())
+            .fold(0.0, f64::max);
+        let steps = (way / (0.4 * level.lattice.pitch)).ceil() as usize;
+        for _ in 0..steps {
+            if !self.goes_on(level, 0, standing) {
+                break;
+            }
+            for (node, carry) in &start.carry {
+                level.at[*node as usize] += carry / steps as f64;
+            }
+            level.look(level.lattice.pitch, 0.1);
+            for _ in 0..SWEEPS {
+                level.sweep();
+            }
+            level.look(level.lattice.pitch, level.lattice.pitch);
+            joint.sight = level.lattice.pitch;
+            joint.step(level);
+        }
     }
 
     /// Asks the watcher, and films.
@@ -230,27 +261,5 @@ impl Joint {
             level.look(way, sample_way);
         }
         self.step(level)
-    }
-}
-
-/// Carries the holds to where they belong, a part of a pitch at a time.
-fn carry_holds(level: &mut Level<'_>, joint: &mut Joint, start: &Start) {
-    let way = start
-        .carry
-        .iter()
-        .map(|(_, carry)| carry.norm())
-        .fold(0.0, f64::max);
-    let steps = (way / (0.4 * level.lattice.pitch)).ceil() as usize;
-    for _ in 0..steps {
-        for (node, carry) in &start.carry {
-            level.at[*node as usize] += carry / steps as f64;
-        }
-        level.look(level.lattice.pitch, 0.1);
-        for _ in 0..SWEEPS {
-            level.sweep();
-        }
-        level.look(level.lattice.pitch, level.lattice.pitch);
-        joint.sight = level.lattice.pitch;
-        joint.step(level);
     }
 }
