@@ -89,7 +89,7 @@ impl Belt {
                 RADIUS - 0.5 * THICKNESS,
                 self.friction
             ),
-            150,
+            600,
         );
         let at = &rest.positions;
         let top = (0..at.len()).max_by(|a, b| at[*a].z.total_cmp(&at[*b].z));
