@@ -188,7 +188,8 @@ impl Joint {
             .iter()
             .map(|nodes| nodes.iter().copied().filter(restless).collect())
             .collect();
-        self.near = free && asked < NEAR * level.lattice.pitch && made > 0.0;
+        let still = made > 0.0 || asked == 0.0;
+        self.near = free && asked < NEAR * level.lattice.pitch && still;
         Some(Step {
             asked,
             made,
