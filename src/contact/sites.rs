@@ -12,8 +12,8 @@ pub struct Site {
     pub weights: [f64; 4],
 }
 
-/// All sites of a lattice: its nodes, a square grid of samples in each cell, and in each cell the
-/// one place that is nearest to a body, wherever that is.
+/// All sites of a lattice: its nodes, a square grid of samples in each cell, and any other place in
+/// a cell that is asked for.
 #[derive(Clone, Debug)]
 pub struct Sites {
     cells: Vec<[u32; 4]>,
