@@ -8,7 +8,7 @@ mod shape;
 pub use shape::{DrapeShape, drape_shape};
 
 use crate::{
-    body::Bodies,
+    body::{Bodies, Near},
     contact::{Sites, Surface, faces_around},
     fabric::Fabric,
     forces::{Clamp, Laws},
@@ -67,6 +67,10 @@ pub const DEEPEST_ALLOWED: f64 = 0.05;
 pub const FARTHEST_ALLOWED: f64 = 0.05;
 /// Between the places looked at, a surface may be nearer than at them by this [cm].
 const BETWEEN: f64 = 0.01;
+/// Normals that lean apart by more than this cosine (11°) show that an edge or a tip is near.
+const ONE_FACE: f64 = 0.98;
+/// Points along a side of a cell that is near one.
+const FINE: usize = 17;
 /// Samples this far beyond [cm] may have a place that touches near them.
 const AROUND: f64 = 0.1;
 /// Normals nearer than this to each other are one.
@@ -176,7 +180,8 @@ impl Case<'_> {
 
     /// Normals of the surfaces that a cell touches between its nodes.
     fn normals_at_cell(&self, sites: &Sites, cell: usize, at: &[Vec3]) -> Vec<Vec3> {
-        let reach = self.surface.sample_reach() + BETWEEN;
+        // Cloth touches where half its thickness meets a surface, between nodes as at them.
+        let reach = self.surface.node_reach() + BETWEEN;
         let wide = reach + AROUND;
         let corners = self.lattice.cells[cell].map(|node| at[node as usize]);
         let place = |[u, v]: [f64; 2]| blend(&corners, u, v);
@@ -189,9 +194,15 @@ impl Case<'_> {
         }
         let look = |sample| (sample, self.bodies.near(&place(sample), wide));
         let samples: Vec<_> = sites.places().map(look).collect();
-        let around = faces_around(&place, self.bodies, wide, &samples);
-        let all = samples.into_iter().flat_map(|(_, nears)| nears);
-        let touching = all.chain(around).filter(|near| near.distance <= reach);
+        let mut all = faces_around(&place, self.bodies, wide, &samples);
+        all.extend(samples.into_iter().flat_map(|(_, nears)| nears));
+        let leans = |near: &Near| near.normal.dot(&all[0].normal) < ONE_FACE;
+        if all.iter().any(leans) {
+            let fine = (0..FINE * FINE).map(|k| [k % FINE, k / FINE].map(|k| k as f64));
+            let fine = fine.map(|k| place(k.map(|k| k / (FINE - 1) as f64)));
+            all.extend(fine.flat_map(|point| self.bodies.near(&point, reach)));
+        }
+        let touching = all.into_iter().filter(|near| near.distance <= reach);
         touching.map(|near| near.normal).collect()
     }
 

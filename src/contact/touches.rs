@@ -2,7 +2,7 @@
 
 use super::{
     Friction, Site, Sites, Skin,
-    deepest::{FEATURE_REACH, deepest_place},
+    deepest::{FEATURE_REACH, Sample, deepest_place},
 };
 use crate::{
     body::{Bodies, Near},
@@ -196,8 +196,12 @@ impl Touches {
         }
         let point = |place| self.sites.in_cell(cell, place).at(at);
         let look = |place| (place, bodies.near(&point(place), wide));
-        let mut all: Vec<([f64; 2], Vec<Near>)> = self.sites.places().map(look).collect();
-        let places = self.remember(cell, &point, bodies, &all);
+        let mut all: Vec<Sample> = self.sites.places().map(look).collect();
+        let places = if self.features {
+            self.remember(cell, &point, bodies, wide, &all)
+        } else {
+            [None; PLACES]
+        };
         all.extend(
             places
                 .iter()
@@ -224,16 +228,13 @@ impl Touches {
         cell: usize,
         point: &impl Fn([f64; 2]) -> Vec3,
         bodies: &Bodies,
-        all: &[([f64; 2], Vec<Near>)],
+        wide: f64,
+        samples: &[Sample],
     ) -> Places {
-        if !self.features {
-            return [None; PLACES];
-        }
         let far = self.surface.sample_reach() + FORGOTTEN;
         let near = |place: &[f64; 2]| !bodies.near(&point(*place), far).is_empty();
         let mut places = self.places[cell].map(|place| place.filter(near));
-        let wide = far.max(FEATURE_REACH * self.pitch);
-        if let Some(place) = deepest_place(point, bodies, wide, all) {
+        if let Some(place) = deepest_place(point, bodies, wide, samples) {
             let same = |known: &[f64; 2]| {
                 (known[0] - place[0]).abs().max((known[1] - place[1]).abs()) < SAME_PLACE
             };

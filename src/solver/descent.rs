@@ -26,16 +26,8 @@ pub(super) fn descend(
     settings: &Settings,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Settled, Unsolvable> {
-    let mut lattices = cuts(problem)?;
     let surface = surface(problem);
-    let finest = prepare(problem)?;
-    // A coarse cut may miss a hold or the body below; what is asked for is the finest.
-    lattices.pop();
-    lattices.retain(|lattice| {
-        let start = Start::new(problem, lattice);
-        start.is_ok_and(|mut start| start.fall(problem, &surface, lattice).is_some())
-    });
-    lattices.push(finest);
+    let lattices = cuts(problem, &surface)?;
     let mut before: Option<(&Lattice, Vec<Vec3>)> = None;
     let mut work = Vec::new();
     let mut run = Run {
@@ -104,23 +96,23 @@ fn surface(problem: &Problem) -> Surface {
     }
 }
 
-/// The lattices from coarse to fine. Cuts that would fall apart when coarse are left out.
-fn cuts(problem: &Problem) -> Result<Vec<Lattice>, Unsolvable> {
-    let finest = problem.piece.cut(problem.piece.pitch)?;
-    let mut lattices = vec![finest];
+/// The lattices from coarse to fine. Cuts that would fall apart when coarse, or miss a hold or the
+/// body below, are left out.
+fn cuts(problem: &Problem, surface: &Surface) -> Result<Vec<Lattice>, Unsolvable> {
+    let mut lattices = vec![prepare(problem)?];
     let mut pitch = problem.piece.pitch;
     while lattices
         .last()
         .is_some_and(|lattice| lattice.cells.len() > 200)
         && lattices.len() < 8
+        && pitch <= 64.0 * problem.piece.pitch
     {
         pitch *= 2.0;
-        if let Ok(lattice) = problem.piece.cut(pitch) {
-            lattices.push(lattice);
-        }
-        if pitch > 64.0 * problem.piece.pitch {
-            break;
-        }
+        let coarse = problem.piece.cut(pitch);
+        lattices.extend(coarse.ok().filter(|lattice| {
+            let start = Start::new(problem, lattice);
+            start.is_ok_and(|mut start| start.fall(problem, surface, lattice).is_some())
+        }));
     }
     lattices.reverse();
     Ok(lattices)
