@@ -35,6 +35,8 @@ const ON_THE_SURFACE: f64 = 1e-9;
 const SHALLOW: f64 = 0.04;
 /// How deep inside a solid [cm] a point is still brought back.
 const DEEP: f64 = 3.0;
+/// More surfaces than this are not between two points of a cell, but on a fold of the sheet.
+const MOST_CROSSINGS: usize = 16;
 
 impl Default for Bodies {
     fn default() -> Self {
@@ -73,12 +75,26 @@ impl Bodies {
     /// Every surface within `reach` [cm] of a point, and every solid it is inside of, by part.
     #[must_use]
     pub fn near(&self, point: &Vec3, reach: f64) -> Vec<Near> {
-        let centre = Vector::from(*point);
-        let around = Aabb::new(centre - Vector::splat(reach), centre + Vector::splat(reach));
+        self.near_from(point, point, reach)
+    }
+
+    /// As [`near`](Self::near), for a point of a cloth that has another point at `from`: where a
+    /// sheet stands between the two, the cloth has gone through it, and the point counts as inside.
+    #[must_use]
+    pub fn near_from(&self, from: &Vec3, point: &Vec3, reach: f64) -> Vec<Near> {
+        let (from, centre) = (Vector::from(*from), Vector::from(*point));
+        let mut around = Aabb::new(centre - Vector::splat(reach), centre + Vector::splat(reach));
+        around.take_point(from);
+        let nearest = |index| {
+            let part = &self.parts[index];
+            let near = nearest(part, index, point, f64::MAX, reach.max(DEEP))?;
+            let near = seen_from(part, near, &from, &centre);
+            (near.distance <= reach).then_some(near)
+        };
         let mut found: Vec<Near> = self
             .in_box(&around)
             .into_iter()
-            .filter_map(|part| nearest(&self.parts[part], part, point, reach, reach.max(DEEP)))
+            .filter_map(nearest)
             .collect();
         found.sort_by_key(|near| near.part);
         found
@@ -171,6 +187,34 @@ impl Bodies {
             }
         }
         hit.time_of_impact
+    }
+}
+
+/// What is near a point, seen from another point of the cloth: beyond a sheet it is inside.
+fn seen_from(part: &Part, near: Near, from: &Vector, point: &Vector) -> Near {
+    let way = *point - *from;
+    let length = way.length();
+    // A surface between them is nearer to the point than they are to each other.
+    if part.nature() == Nature::Solid || near.distance > length || length <= ON_THE_SURFACE {
+        return near;
+    }
+    let mut passed = 0.0;
+    let mut crossings = 0;
+    while crossings < MOST_CROSSINGS {
+        let ray = Ray::new(*from + way * passed, way);
+        let Some(hit) = part.shape().cast_ray(part.pose(), &ray, 1.0 - passed, true) else {
+            break;
+        };
+        passed += hit + ON_THE_SURFACE / length;
+        crossings += 1;
+    }
+    if crossings % 2 == 0 {
+        return near;
+    }
+    Near {
+        distance: -near.distance,
+        normal: -near.normal,
+        ..near
     }
 }
 

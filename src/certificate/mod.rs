@@ -9,7 +9,7 @@ pub use shape::{DrapeShape, drape_shape};
 
 use crate::{
     body::{Bodies, Near},
-    contact::{Sites, Surface, faces_around},
+    contact::{Sites, Surface, corner_of, faces_around},
     fabric::Fabric,
     forces::{Clamp, Laws},
     lattice::Lattice,
@@ -192,15 +192,19 @@ impl Case<'_> {
         if self.bodies.near(&middle, size + wide).is_empty() {
             return Vec::new();
         }
-        let look = |sample| (sample, self.bodies.near(&place(sample), wide));
+        let nears = |sample, reach| {
+            let corner = &corners[corner_of(sample)];
+            self.bodies.near_from(corner, &place(sample), reach)
+        };
+        let look = |sample| (sample, nears(sample, wide));
         let samples: Vec<_> = sites.places().map(look).collect();
-        let mut all = faces_around(&place, self.bodies, wide, &samples);
+        let mut all = faces_around(&nears, wide, &samples);
         all.extend(samples.into_iter().flat_map(|(_, nears)| nears));
         let leans = |near: &Near| near.normal.dot(&all[0].normal) < ONE_FACE;
         if all.iter().any(leans) {
             let fine = (0..FINE * FINE).map(|k| [k % FINE, k / FINE].map(|k| k as f64));
-            let fine = fine.map(|k| place(k.map(|k| k / (FINE - 1) as f64)));
-            all.extend(fine.flat_map(|point| self.bodies.near(&point, reach)));
+            let fine = fine.map(|k| k.map(|k| k / (FINE - 1) as f64));
+            all.extend(fine.flat_map(|place| nears(place, reach)));
         }
         let touching = all.into_iter().filter(|near| near.distance <= reach);
         touching.map(|near| near.normal).collect()
@@ -216,15 +220,21 @@ impl Case<'_> {
     }
 }
 
-/// The deepest of 16 points a cell inside any body [cm]: a grid that takes in the cell's edges.
+/// The deepest of 16 points a cell inside any body, or through a sheet [cm]: a grid that takes in
+/// the cell's edges.
 fn deepest(lattice: &Lattice, bodies: &Bodies, at: &[Vec3]) -> f64 {
     if bodies.parts().is_empty() {
         return 0.0;
     }
     let of_cell = |cell: usize| {
         let corners = lattice.cells[cell].map(|node| at[node as usize]);
-        let points = samples(|k| k as f64 / 3.0).map(|(u, v)| blend(&corners, u, v));
-        points.map(|point| bodies.depth(&point)).fold(0.0, f64::max)
+        let depth = |place: [f64; 2]| {
+            let point = blend(&corners, place[0], place[1]);
+            let through = bodies.near_from(&corners[corner_of(place)], &point, 0.0);
+            let through = through.iter().map(|near| -near.distance);
+            through.fold(bodies.depth(&point), f64::max)
+        };
+        samples(|k| k as f64 / 3.0).map(depth).fold(0.0, f64::max)
     };
     threads::map(lattice.cells.len(), of_cell)
         .into_iter()
@@ -232,8 +242,8 @@ fn deepest(lattice: &Lattice, bodies: &Bodies, at: &[Vec3]) -> f64 {
 }
 
 /// A grid of 4 × 4 places in a cell.
-fn samples(place: impl Fn(usize) -> f64) -> impl Iterator<Item = (f64, f64)> {
-    (0..16).map(move |k| (place(k % 4), place(k / 4)))
+fn samples(place: impl Fn(usize) -> f64) -> impl Iterator<Item = [f64; 2]> {
+    (0..16).map(move |k| [place(k % 4), place(k / 4)])
 }
 
 /// A place in a cell, on the two triangles that it is shown as.

@@ -1,10 +1,8 @@
 //! The place in a cell that is nearest to a body, or deepest in it: where an edge or a tip of the
 //! body meets the cloth between its samples.
 
-use crate::{
-    body::{Bodies, Near},
-    math::Vec3,
-};
+use super::sites::corner_of;
+use crate::body::Near;
 
 /// Normals that lean apart by more than this cosine (30°) show that a feature is between them.
 const ONE_FACE: f64 = 0.866;
@@ -22,20 +20,19 @@ pub(crate) const FEATURE_REACH: f64 = 0.3;
 pub(crate) type Sample = ([f64; 2], Vec<Near>);
 
 /// Where in a cell the nearest surface is, if it is within `reach` [cm] and the cell is near more
-/// than one face of it. `cell` gives the point at a place.
+/// than one face of it. `nears` gives the surfaces within a reach of a place.
 pub(crate) fn deepest_place(
-    cell: &impl Fn([f64; 2]) -> Vec3,
-    bodies: &Bodies,
+    nears: &impl Fn([f64; 2], f64) -> Vec<Near>,
     reach: f64,
     samples: &[Sample],
 ) -> Option<[f64; 2]> {
     let (start, nearest) = nearest_sample(samples)?;
-    let mut nears = samples.iter().flat_map(|(_, nears)| nears);
-    if nears.all(|near| near.normal.dot(&nearest.normal) >= ONE_FACE) {
+    let mut all = samples.iter().flat_map(|(_, nears)| nears);
+    if all.all(|near| near.normal.dot(&nearest.normal) >= ONE_FACE) {
         return None;
     }
     let mut look = |place| {
-        let nears = bodies.near(&cell(place), reach);
+        let nears = nears(place, reach);
         nears.iter().map(|near| near.distance).fold(reach, f64::min)
     };
     let (distance, place) = descend(&mut look, (nearest.distance, start));
@@ -53,21 +50,19 @@ fn nearest_sample(samples: &[Sample]) -> Option<([f64; 2], Near)> {
 /// Surfaces around the nearest places of the four quarters of a cell, within `reach` [cm]: all that
 /// a search for them comes by, since a tip pushes along any normal between those of its faces.
 pub(crate) fn faces_around(
-    cell: &impl Fn([f64; 2]) -> Vec3,
-    bodies: &Bodies,
+    nears: &impl Fn([f64; 2], f64) -> Vec<Near>,
     reach: f64,
     samples: &[Sample],
 ) -> Vec<Near> {
     let mut found = Vec::new();
-    for quarter in 0..4 {
-        let inside = |place: &[f64; 2]| {
-            (usize::from(place[0] > 0.5), usize::from(place[1] > 0.5)) == (quarter % 2, quarter / 2)
-        };
-        let samples = samples.iter().filter(|(place, _)| inside(place));
+    for corner in 0..4 {
+        let samples = samples
+            .iter()
+            .filter(|(place, _)| corner_of(*place) == corner);
         let samples: Vec<Sample> = samples.cloned().collect();
         if let Some((start, nearest)) = nearest_sample(&samples) {
             let mut look = |place| {
-                let nears = bodies.near(&cell(place), reach);
+                let nears = nears(place, reach);
                 let nearest = nears.iter().map(|near| near.distance).fold(reach, f64::min);
                 found.extend(nears);
                 nearest

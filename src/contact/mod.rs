@@ -12,6 +12,7 @@ mod sites;
 mod touches;
 
 pub(crate) use deepest::faces_around;
+pub(crate) use sites::corner_of;
 pub use law::{Friction, Skin};
 pub use sites::{Site, Sites};
 pub use touches::{Surface, Touch, Touches};

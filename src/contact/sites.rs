@@ -22,6 +22,16 @@ pub struct Sites {
     sample_area: f64,
 }
 
+/// The node of a cell, from 0 to 3, that a place in it belongs to.
+pub(crate) fn corner_of([u, v]: [f64; 2]) -> usize {
+    match (u > 0.5, v > 0.5) {
+        (false, false) => 0,
+        (true, false) => 1,
+        (true, true) => 2,
+        (false, true) => 3,
+    }
+}
+
 /// Samples of a cell stand no farther apart than this [cm], where 4 to 8 a side allow it.
 const SAMPLE_DISTANCE: f64 = 0.2;
 

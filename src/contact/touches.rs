@@ -3,6 +3,7 @@
 use super::{
     Friction, Site, Sites, Skin,
     deepest::{FEATURE_REACH, Sample, deepest_place},
+    sites::corner_of,
 };
 use crate::{
     body::{Bodies, Near},
@@ -194,11 +195,15 @@ impl Touches {
         if self.clear_of(cell, at) > wide {
             return ([None; PLACES], Vec::new());
         }
-        let point = |place| self.sites.in_cell(cell, place).at(at);
-        let look = |place| (place, bodies.near(&point(place), wide));
+        let nears = |place, reach| {
+            let corner = self.sites.cells()[cell][corner_of(place)];
+            let point = self.sites.in_cell(cell, place).at(at);
+            bodies.near_from(&at[corner as usize], &point, reach)
+        };
+        let look = |place| (place, nears(place, wide));
         let mut all: Vec<Sample> = self.sites.places().map(look).collect();
         let places = if self.features {
-            self.remember(cell, &point, bodies, wide, &all)
+            self.remember(cell, &nears, wide, &all)
         } else {
             [None; PLACES]
         };
@@ -226,15 +231,14 @@ impl Touches {
     fn remember(
         &self,
         cell: usize,
-        point: &impl Fn([f64; 2]) -> Vec3,
-        bodies: &Bodies,
+        nears: &impl Fn([f64; 2], f64) -> Vec<Near>,
         wide: f64,
         samples: &[Sample],
     ) -> Places {
         let far = self.surface.sample_reach() + FORGOTTEN;
-        let near = |place: &[f64; 2]| !bodies.near(&point(*place), far).is_empty();
+        let near = |place: &[f64; 2]| !nears(*place, far).is_empty();
         let mut places = self.places[cell].map(|place| place.filter(near));
-        if let Some(place) = deepest_place(point, bodies, wide, samples) {
+        if let Some(place) = deepest_place(nears, wide, samples) {
             let same = |known: &[f64; 2]| {
                 (known[0] - place[0]).abs().max((known[1] - place[1]).abs()) < SAME_PLACE
             };

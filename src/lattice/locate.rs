@@ -26,6 +26,13 @@ pub struct Place {
 }
 
 impl Place {
+    /// The node that counts most.
+    #[must_use]
+    pub fn nearest(&self) -> u32 {
+        let heavier = |a: usize, b: usize| if self.weights[b] > self.weights[a] { b } else { a };
+        self.nodes[(0..4).fold(0, heavier)]
+    }
+
     /// The mean of the nodes' positions by the weights [cm].
     #[must_use]
     pub fn blend(&self, positions: &[Vec3]) -> Vec3 {

@@ -3,41 +3,56 @@
 use super::{level::Level, start::Start};
 use crate::{contact::Surface, lattice::Lattice, math::Vec3};
 
-/// Positions of a finer lattice on the shape of a coarser one; held nodes where they are carried.
+/// A node that a finer cut put into a body is pushed out at most so often: the nearest surface
+/// beyond one may be another's.
+const PUSHES: usize = 3;
+/// A node that stays behind a sheet is put this far along the way that is free.
+const BEFORE_THE_SHEET: f64 = 0.9;
+
+/// Puts a level on the shape of a coarser one: held nodes where they are carried, free ones outside
+/// of the bodies, on the side where the coarse cloth is.
 pub(super) fn carry_over(
+    level: &mut Level<'_>,
     coarse: &Lattice,
     rest: &[Vec3],
-    fine: &Lattice,
     start: &Start,
-    flat: &[Vec3],
-) -> Vec<Vec3> {
+    surface: &Surface,
+) {
     let locator = coarse.locator();
-    let mut at: Vec<Vec3> = fine
-        .coordinates
-        .iter()
-        .map(|coordinate| locator.locate(*coordinate).blend(rest))
-        .collect();
-    for (node, carry) in &start.carry {
-        at[*node as usize] = flat[*node as usize] + carry;
+    let flat = core::mem::take(&mut level.at);
+    let mut from = Vec::with_capacity(flat.len());
+    for coordinate in &level.lattice.coordinates {
+        let place = locator.locate(*coordinate);
+        level.at.push(place.blend(rest));
+        from.push(rest[place.nearest() as usize]);
     }
-    at
+    for (node, carry) in &start.carry {
+        level.at[*node as usize] = flat[*node as usize] + carry;
+    }
+    push_out(level, surface, &from);
 }
 
-/// Brings free nodes that the finer cut put into a body back to its surface.
-pub(super) fn push_out(level: &mut Level<'_>, surface: &Surface) {
-    for node in 0..level.at.len() {
+/// Brings free nodes that are in a body, or beyond a sheet from where the cloth is, to the surface.
+fn push_out(level: &mut Level<'_>, surface: &Surface, from: &[Vec3]) {
+    for (node, from) in from.iter().enumerate() {
         if level.held[node] {
             continue;
         }
-        for _ in 0..3 {
-            let nears = level.bodies.near(&level.at[node], 0.0);
-            let Some(deepest) = nears
-                .iter()
+        let mut at = level.at[node];
+        let deepest = |at: &Vec3| {
+            let nears = level.bodies.near_from(from, at, 0.0);
+            nears
+                .into_iter()
                 .min_by(|a, b| a.distance.total_cmp(&b.distance))
-            else {
-                break;
-            };
-            level.at[node] += deepest.normal * (surface.node_reach() - deepest.distance);
+        };
+        for _ in 0..PUSHES {
+            let Some(near) = deepest(&at) else { break };
+            at += near.normal * (surface.node_reach() - near.distance);
         }
+        let free = level.bodies.free_way(from, &at);
+        if deepest(&at).is_some() && free < 1.0 {
+            at = from + (at - from) * (BEFORE_THE_SHEET * free);
+        }
+        level.at[node] = at;
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     ForceModel, Level as LevelWork, Problem, Progress, Settings, Settled, Unsolvable,
-    carry::{carry_over, push_out},
+    carry::carry_over,
     film::Film,
     level::Level,
     rest::Run,
@@ -45,10 +45,9 @@ pub(super) fn descend(
         let last = number + 1 == lattices.len();
         let mut level = open(problem, lattice, &start, surface, last);
         if let Some((coarse, rest)) = &before {
-            level.at = carry_over(coarse, rest, lattice, &start, &level.at);
+            carry_over(&mut level, coarse, rest, &start, &surface);
         }
         start.disturb(&mut level.at, lattice, problem.seed);
-        push_out(&mut level, &surface);
         let case = Case {
             lattice,
             fabric: &problem.fabric,

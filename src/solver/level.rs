@@ -71,9 +71,8 @@ impl<'a> Level<'a> {
         self.touches.look_at_loads(&self.at);
     }
 
-    /// Every node moved by `way` of it, brought back where it pressed into
-    /// a body, and brought back where it pressed into
-    /// a body, and as far as bodies leave free.
+    /// Every node moved by `way` of it, brought back where it pressed into a body, and as far as
+    /// bodies leave free.
     pub(super) fn freely(&self, way: impl Fn(usize) -> Vec3 + Sync + Send) -> Vec<Vec3> {
         let moved = |node: usize| {
             if self.held[node] {
