@@ -8,6 +8,7 @@
 
 mod deepest;
 mod law;
+mod patch;
 mod sites;
 mod touches;
 

@@ -81,17 +81,17 @@ const FORGOTTEN: f64 = 0.05;
 #[derive(Clone, Debug)]
 pub struct Touches {
     sites: Sites,
-    surface: Surface,
+    pub(super) surface: Surface,
     pitch: f64,
-    touches: Vec<Touch>,
+    pub(super) touches: Vec<Touch>,
     /// For each node, its touches.
     of_node: Vec<Vec<u32>>,
     /// No part was nearer to a node than this [cm] when it stood there.
-    clearance: Vec<(f64, Vec3)>,
+    pub(super) clearance: Vec<(f64, Vec3)>,
     /// Where features meet each cell.
-    places: Vec<Places>,
+    pub(super) places: Vec<Places>,
     /// Whether features between samples are looked for.
-    features: bool,
+    pub(super) features: bool,
 }
 
 type Places = [Option<[f64; 2]>; PLACES];
@@ -212,7 +212,7 @@ impl Touches {
                 .iter()
                 .map(|place| place.map_or(([0.0; 2], Vec::new()), look)),
         );
-        let first = self.clearance.len() + cell * (self.sites.samples() + PLACES);
+        let first = self.clearance.len() + cell * self.sites_of_cell();
         let mut found = Vec::new();
         for (k, (place, nears)) in all.into_iter().enumerate() {
             let site = self.sites.in_cell(cell, place);
@@ -309,7 +309,12 @@ impl Touches {
         (number < self.clearance.len()).then_some(number)
     }
 
-    fn list_by_node(&mut self) {
+    /// Samples and remembered places of a cell.
+    pub(super) fn sites_of_cell(&self) -> usize {
+        self.sites.samples() + PLACES
+    }
+
+    pub(super) fn list_by_node(&mut self) {
         for list in &mut self.of_node {
             list.clear();
         }

@@ -15,6 +15,7 @@ mod grain;
 mod grid;
 mod locate;
 mod outline;
+mod part;
 mod ring;
 #[cfg(test)]
 pub(crate) mod sample;
@@ -25,6 +26,7 @@ pub use cut::CutError;
 pub use fault::OutlineError;
 pub use locate::{Locator, Place};
 pub use outline::{Edge, Outline};
+pub use part::Part;
 
 use crate::{fabric::Yarn, math::Vec2};
 

@@ -11,7 +11,6 @@ use super::{
 use crate::{
     certificate::{Case, certify, drape_shape},
     contact::{Surface, Touches},
-    forces::Sheet,
     lattice::Lattice,
     math::Vec3,
 };
@@ -43,11 +42,6 @@ pub(super) fn descend(
             .fall(problem, &surface, lattice)
             .ok_or(Unsolvable::Falls)?;
         let last = number + 1 == lattices.len();
-        let mut level = open(problem, lattice, &start, surface, last);
-        if let Some((coarse, rest)) = &before {
-            carry_over(&mut level, coarse, rest, &start, &surface);
-        }
-        start.disturb(&mut level.at, lattice, problem.seed);
         let case = Case {
             lattice,
             fabric: &problem.fabric,
@@ -58,6 +52,12 @@ pub(super) fn descend(
             bodies: &problem.bodies,
             surface,
         };
+        let mut level = Level::new(&case, Touches::new(lattice, surface, last));
+        level.at = start.at.clone();
+        if let Some((coarse, rest)) = &before {
+            carry_over(&mut level, coarse, rest, &start, &surface);
+        }
+        start.disturb(&mut level.at, lattice, problem.seed);
         let remaining = run.rest(&mut level, &case, &start, number);
         work.push(LevelWork {
             spacing: lattice.pitch,
@@ -115,37 +115,6 @@ fn cuts(problem: &Problem, surface: &Surface) -> Result<Vec<Lattice>, Unsolvable
     }
     lattices.reverse();
     Ok(lattices)
-}
-
-fn open<'a>(
-    problem: &'a Problem,
-    lattice: &'a Lattice,
-    start: &Start,
-    surface: Surface,
-    last: bool,
-) -> Level<'a> {
-    let colours = lattice
-        .colours()
-        .into_iter()
-        .map(|nodes| {
-            nodes
-                .into_iter()
-                .filter(|node| !start.held[*node as usize])
-                .collect()
-        })
-        .collect();
-    Level {
-        lattice,
-        sheet: Sheet::new(lattice, &problem.fabric, problem.laws, &start.clamps),
-        bodies: &problem.bodies,
-        touches: Touches::new(lattice, surface, last),
-        held: start.held.clone(),
-        colours,
-        at: start.at.clone(),
-        own_only: problem.forces == ForceModel::Paper,
-        sweeps: 0,
-        joint_steps: 0,
-    }
 }
 
 fn finish(

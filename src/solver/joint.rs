@@ -47,7 +47,7 @@ pub(super) struct Joint {
     exact: Stiffness,
     positive: Stiffness,
     /// Damping of each node: stiffness per weight [1/cm].
-    damping: Vec<f64>,
+    pub(super) damping: Vec<f64>,
     /// Nodes that asked for much in the last step, by colours.
     pub(super) restless: Vec<Vec<u32>>,
     /// Length that steps are trusted to [cm].
@@ -92,6 +92,15 @@ impl Joint {
             radius: 0.2 * level.lattice.pitch,
             sight: 0.0,
             near: false,
+        }
+    }
+
+    /// For a part of the cloth, that knows what was learnt of it.
+    pub(super) fn of_patch(&self, level: &Level<'_>, damping: Vec<f64>) -> Self {
+        Self {
+            damping,
+            radius: self.radius,
+            ..Self::new(level)
         }
     }
 
@@ -154,6 +163,7 @@ impl Joint {
             return None;
         }
         let made = self.descend(level, &factor, &moves, &moves);
+        self.mark_restless(level, &moves, asked);
         self.near = true;
         Some(Step {
             asked,
@@ -182,12 +192,7 @@ impl Joint {
             .filter(|damping| **damping > DAMPED / level.lattice.pitch);
         let free = 100 * damped.count() <= level.at.len();
         self.learn(level.lattice.pitch, &model.moves);
-        let restless = |node: &u32| model.moves[*node as usize].norm() > RESTLESS * asked;
-        self.restless = level
-            .colours
-            .iter()
-            .map(|nodes| nodes.iter().copied().filter(restless).collect())
-            .collect();
+        self.mark_restless(level, &model.moves, asked);
         let still = made > 0.0 || asked == 0.0;
         self.near = free && asked < NEAR * level.lattice.pitch && still;
         Some(Step {
@@ -196,6 +201,12 @@ impl Joint {
             exact: false,
             free,
         })
+    }
+
+    fn mark_restless(&mut self, level: &Level<'_>, moves: &[Vec3], asked: f64) {
+        let restless = |node: &u32| moves[*node as usize].norm() > RESTLESS * asked;
+        let of_colour = |nodes: &Vec<u32>| nodes.iter().copied().filter(restless).collect();
+        self.restless = level.colours.iter().map(of_colour).collect();
     }
 
     /// Damps nodes that asked for more than is trusted, and frees others.

@@ -5,7 +5,10 @@ use super::{
     factor::Plan,
     stiffness::Stiffness,
 };
-use crate::{body::Bodies, contact::Touches, forces::Sheet, lattice::Lattice, math::Vec3, threads};
+use crate::{
+    body::Bodies, certificate::Case, contact::Touches, forces::Sheet, lattice::Lattice,
+    math::Vec3, threads,
+};
 
 /// The state of one level.
 #[derive(Debug)]
@@ -24,9 +27,32 @@ pub(super) struct Level<'a> {
     pub(super) own_only: bool,
     pub(super) sweeps: usize,
     pub(super) joint_steps: usize,
+    /// Updates of single nodes.
+    pub(super) updates: u64,
 }
 
 impl<'a> Level<'a> {
+    /// A lattice with what acts on it, its nodes not yet anywhere.
+    pub(super) fn new(case: &Case<'a>, touches: Touches) -> Self {
+        let free = |node: &u32| !case.held[*node as usize];
+        let colours = case.lattice.colours().into_iter();
+        Self {
+            lattice: case.lattice,
+            sheet: Sheet::new(case.lattice, case.fabric, case.laws, case.clamps),
+            bodies: case.bodies,
+            touches,
+            held: case.held.to_vec(),
+            colours: colours
+                .map(|nodes| nodes.into_iter().filter(free).collect())
+                .collect(),
+            at: Vec::new(),
+            own_only: case.own_only,
+            sweeps: 0,
+            joint_steps: 0,
+            updates: 0,
+        }
+    }
+
     /// The joint system's order of elimination and empty matrix.
     pub(super) fn plan(&self) -> (Plan, Stiffness) {
         let nodes = self.at.len();

@@ -9,6 +9,7 @@ mod film;
 mod joint;
 mod level;
 mod model;
+mod patch;
 mod rest;
 mod start;
 mod stiffness;

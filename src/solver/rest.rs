@@ -5,6 +5,7 @@ use super::{
     film::Film,
     joint::{Joint, Step},
     level::Level,
+    patch::CALM,
     start::Start,
 };
 use crate::{
@@ -85,6 +86,9 @@ impl Run<'_> {
                 break;
             };
             standing.count(&step, level.lattice.pitch);
+            if step.asked > CALM * level.lattice.pitch {
+                joint.settle_patches(level, case);
+            }
             if last {
                 if standing.settled_for > 1 {
                     joint.finish(level);
@@ -245,7 +249,7 @@ impl Standing {
 
 impl Joint {
     /// Sweeps, unless rest is near, then a joint step.
-    fn round(&mut self, level: &mut Level<'_>, made: f64) -> Option<Step> {
+    pub(super) fn round(&mut self, level: &mut Level<'_>, made: f64) -> Option<Step> {
         let way = 0.8 * level.lattice.pitch;
         self.sight = (3.0 * made).clamp(0.02 * level.lattice.pitch, way);
         let sample_way = self.sight;

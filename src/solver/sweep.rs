@@ -29,6 +29,7 @@ impl Level<'_> {
         let mut longest = 0.0_f64;
         for nodes in colours {
             let moved = threads::map(nodes.len(), |k| self.visit(nodes[k] as usize));
+            self.updates += nodes.len() as u64;
             for (node, to) in nodes.iter().zip(moved) {
                 let here = &mut self.at[*node as usize];
                 longest = longest.max((to - *here).norm());
