@@ -257,3 +257,51 @@ fn nearest(part: &Part, index: usize, point: &Vec3, reach: f64, search: f64) -> 
         normal,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        body::{Mesh, Shape},
+        math::Pose,
+    };
+
+    /// Two squares of 2 cm across z, open, at heights 0 and −1 cm.
+    fn sheets() -> Bodies {
+        let square = |height| {
+            let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+            let corners = corners.map(|[x, y]| Vec3::new(x, y, height)).to_vec();
+            let mesh = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).unwrap();
+            Part::new("square".into(), &Shape::Mesh(mesh), Pose::identity()).unwrap()
+        };
+        Bodies::new(vec![square(0.0), square(-1.0)])
+    }
+
+    #[test]
+    fn beyond_a_sheet_is_inside_and_round_its_rim_is_not() {
+        let bodies = sheets();
+        let standing = |from: [f64; 3], point: [f64; 3]| {
+            let nears = bodies.near_from(&from.into(), &point.into(), 0.5);
+            let figures = |near: &Near| (near.part, near.distance, near.normal.z);
+            nears.iter().map(figures).collect::<Vec<_>>()
+        };
+        let above = [0.2, 0.1, 0.4];
+        assert_eq!(standing(above, [0.3, 0.0, 0.25]), [(0, 0.25, 1.0)]);
+        assert_eq!(standing(above, [0.3, 0.0, -0.25]), [(0, -0.25, 1.0)]);
+        // Seen from below, the same point is outside.
+        assert_eq!(
+            standing([0.3, 0.1, -0.4], [0.3, 0.0, -0.25]),
+            [(0, 0.25, -1.0)]
+        );
+        // Over the diagonal that two faces share, and through both sheets.
+        assert_eq!(
+            standing([0.0, 0.0, 0.1], [0.0, 0.0, -0.1]),
+            [(0, -0.1, 1.0)]
+        );
+        let through = standing([0.0, 0.0, 0.1], [0.0, 0.0, -1.25]);
+        assert_eq!(through, [(0, -1.25, 1.0), (1, -0.25, 1.0)]);
+        // Past the rim nothing stands between.
+        let past = standing([1.4, 0.0, 0.2], [1.2, 0.0, -0.2]);
+        assert!(past.len() == 1 && past[0].1 > 0.0, "{past:?}");
+    }
+}

@@ -10,10 +10,12 @@ mod deepest;
 mod law;
 mod patch;
 mod sites;
+mod touch;
 mod touches;
 
 pub(crate) use deepest::faces_around;
-pub(crate) use sites::corner_of;
 pub use law::{Friction, Skin};
+pub(crate) use sites::corner_of;
 pub use sites::{Site, Sites};
-pub use touches::{Surface, Touch, Touches};
+pub use touch::Touch;
+pub use touches::{Surface, Touches};

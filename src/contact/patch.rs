@@ -7,7 +7,7 @@ impl Touches {
     /// The touches of a part of the cloth, with all they remember.
     #[must_use]
     pub fn of_part(&self, part: &Part) -> Self {
-        let mut own = Self::new(&part.lattice, self.surface, self.features);
+        let mut own = Self::new(&part.lattice, self.surface);
         for (clearance, node) in own.clearance.iter_mut().zip(&part.nodes) {
             *clearance = self.clearance[*node as usize];
         }

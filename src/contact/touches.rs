@@ -4,6 +4,7 @@ use super::{
     Friction, Site, Sites, Skin,
     deepest::{FEATURE_REACH, Sample, deepest_place},
     sites::corner_of,
+    touch::{Touch, settled_normal},
 };
 use crate::{
     body::{Bodies, Near},
@@ -11,29 +12,6 @@ use crate::{
     math::{Mat3, Vec3},
     threads,
 };
-
-/// A site near one part of a body.
-#[derive(Clone, Copy, Debug)]
-pub struct Touch {
-    /// The site's number.
-    pub number: u32,
-    /// The site.
-    pub site: Site,
-    /// The part of the bodies.
-    pub part: u32,
-    /// Out of the surface, of length 1.
-    pub normal: Vec3,
-    /// How the normal turned at the last look.
-    pub turn: Vec3,
-    /// Depth in the skin at a position p is `top − normal·p` [cm].
-    pub top: f64,
-    /// The normal law.
-    pub skin: Skin,
-    /// The friction law, its limit as of the last look.
-    pub friction: Friction,
-    /// Where friction holds on [cm].
-    pub anchor: Vec3,
-}
 
 /// What friction and skin are made of, the same for every touch.
 #[derive(Clone, Copy, Debug)]
@@ -90,8 +68,6 @@ pub struct Touches {
     pub(super) clearance: Vec<(f64, Vec3)>,
     /// Where features meet each cell.
     pub(super) places: Vec<Places>,
-    /// Whether features between samples are looked for.
-    pub(super) features: bool,
 }
 
 type Places = [Option<[f64; 2]>; PLACES];
@@ -104,10 +80,9 @@ struct Found {
 }
 
 impl Touches {
-    /// Of a lattice's sites; none are found before the first [`refresh`](Self::refresh). With
-    /// `features`, edges and tips between samples are looked for.
+    /// Of a lattice's sites; none are found before the first [`refresh`](Self::refresh).
     #[must_use]
-    pub fn new(lattice: &Lattice, surface: Surface, features: bool) -> Self {
+    pub fn new(lattice: &Lattice, surface: Surface) -> Self {
         let sites = Sites::new(lattice);
         let nodes = lattice.coordinates.len();
         Self {
@@ -117,7 +92,6 @@ impl Touches {
             of_node: vec![Vec::new(); nodes],
             clearance: vec![(0.0, Vec3::repeat(f64::INFINITY)); nodes],
             places: vec![[None; PLACES]; sites.cells().len()],
-            features,
             sites,
         }
     }
@@ -187,11 +161,7 @@ impl Touches {
         bodies: &Bodies,
         reach: f64,
     ) -> (Places, Vec<Found>) {
-        let wide = if self.features {
-            reach.max(FEATURE_REACH * self.pitch)
-        } else {
-            reach
-        };
+        let wide = reach.max(FEATURE_REACH * self.pitch);
         if self.clear_of(cell, at) > wide {
             return ([None; PLACES], Vec::new());
         }
@@ -202,11 +172,7 @@ impl Touches {
         };
         let look = |place| (place, nears(place, wide));
         let mut all: Vec<Sample> = self.sites.places().map(look).collect();
-        let places = if self.features {
-            self.remember(cell, &nears, wide, &all)
-        } else {
-            [None; PLACES]
-        };
+        let places = self.remember(cell, &nears, wide, &all);
         all.extend(
             places
                 .iter()
@@ -446,48 +412,5 @@ impl Touches {
             }
         }
         loads
-    }
-}
-
-/// The normal of a touch that goes on, and its turn. One that turns back is met half way: between
-/// two faces of an edge a site would else swing for ever.
-fn settled_normal(before: &Touch, now: &Vec3) -> (Vec3, Vec3) {
-    let turn = now - before.normal;
-    if turn.dot(&before.turn) >= 0.0 {
-        return (*now, turn);
-    }
-    let middle = (before.normal + turn * 0.5).normalize();
-    (middle, middle - before.normal)
-}
-
-impl Touch {
-    /// Slip from the anchor in the tangent plane [cm].
-    fn slip(&self, here: &Vec3) -> Vec3 {
-        let way = here - self.anchor;
-        way - self.normal * self.normal.dot(&way)
-    }
-
-    /// Energy with the site at `here` [gf·cm].
-    #[must_use]
-    pub fn energy(&self, here: &Vec3) -> f64 {
-        let (energy, _, _) = self.skin.answer(self.top - self.normal.dot(here));
-        energy + self.friction.energy(&self.slip(here))
-    }
-
-    /// Force on the site at `here` [gf].
-    #[must_use]
-    pub fn force(&self, here: &Vec3) -> Vec3 {
-        let (_, load, _) = self.skin.answer(self.top - self.normal.dot(here));
-        self.normal * load + self.friction.force(&self.slip(here))
-    }
-
-    /// Stiffness of the site at `here` [gf/cm]; `None` where nothing touches.
-    fn stiffness(&self, here: &Vec3) -> Option<Mat3> {
-        let (_, load, slope) = self.skin.answer(self.top - self.normal.dot(here));
-        if load == 0.0 && self.friction.limit == 0.0 {
-            return None;
-        }
-        let normal = self.normal * self.normal.transpose();
-        Some(normal * slope + self.friction.stiffness(&self.slip(here), &self.normal))
     }
 }

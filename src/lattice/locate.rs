@@ -29,7 +29,13 @@ impl Place {
     /// The node that counts most.
     #[must_use]
     pub fn nearest(&self) -> u32 {
-        let heavier = |a: usize, b: usize| if self.weights[b] > self.weights[a] { b } else { a };
+        let heavier = |a: usize, b: usize| {
+            if self.weights[b] > self.weights[a] {
+                b
+            } else {
+                a
+            }
+        };
         self.nodes[(0..4).fold(0, heavier)]
     }
 

@@ -32,13 +32,15 @@ impl Lattice {
         let rods = self.rods.iter().filter(|rod| touches(&rod.nodes));
         let bends = self.bends.iter().filter(|bend| touches(&bend.nodes));
         let corners = self.corners.iter().filter(|corner| touches(&corner.nodes));
-        let cells = (0_u32..).zip(&self.cells).filter(|(_, cell)| touches(*cell));
-        let mut part = Lattice {
+        let cells = (0_u32..)
+            .zip(&self.cells)
+            .filter(|(_, cell)| touches(*cell));
+        let mut part = Self {
             pitch: self.pitch,
             rods: rods.copied().collect(),
             bends: bends.copied().collect(),
             corners: corners.copied().collect(),
-            ..Lattice::default()
+            ..Self::default()
         };
         let (cells, corners_of_cells) = cells.unzip();
         part.cells = corners_of_cells;
@@ -116,10 +118,7 @@ mod tests {
             );
         }
         for (cell, whole) in part.lattice.cells.iter().zip(&part.cells) {
-            assert_eq!(
-                cell.map(|node| here(&node)),
-                lattice.cells[*whole as usize]
-            );
+            assert_eq!(cell.map(|node| here(&node)), lattice.cells[*whole as usize]);
         }
         assert_eq!(lattice.part(&vec![true; chosen.len()]).lattice, lattice);
     }

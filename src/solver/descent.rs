@@ -2,11 +2,7 @@
 
 use super::{
     ForceModel, Level as LevelWork, Problem, Progress, Settings, Settled, Unsolvable,
-    carry::carry_over,
-    film::Film,
-    level::Level,
-    rest::Run,
-    start::Start,
+    carry::carry_over, film::Film, level::Level, rest::Run, start::Start,
 };
 use crate::{
     certificate::{Case, certify, drape_shape},
@@ -28,7 +24,7 @@ pub(super) fn descend(
     let surface = surface(problem);
     let lattices = cuts(problem, &surface)?;
     let mut before: Option<(&Lattice, Vec<Vec3>)> = None;
-    let mut work = Vec::new();
+    let (mut work, mut node_updates) = (Vec::new(), 0);
     let mut run = Run {
         watch,
         settings,
@@ -52,13 +48,14 @@ pub(super) fn descend(
             bodies: &problem.bodies,
             surface,
         };
-        let mut level = Level::new(&case, Touches::new(lattice, surface, last));
+        let mut level = Level::new(&case, Touches::new(lattice, surface));
         level.at = start.at.clone();
         if let Some((coarse, rest)) = &before {
             carry_over(&mut level, coarse, rest, &start, &surface);
         }
         start.disturb(&mut level.at, lattice, problem.seed);
         let remaining = run.rest(&mut level, &case, &start, number);
+        node_updates += level.updates;
         work.push(LevelWork {
             spacing: lattice.pitch,
             nodes: level.at.len(),
@@ -68,6 +65,7 @@ pub(super) fn descend(
         if last {
             let settled = finish(&case, level, work, settings, remaining);
             return Ok(Settled {
+                node_updates,
                 frames: run.film.develop(&lattices),
                 ..settled
             });
@@ -125,10 +123,6 @@ fn finish(
     remaining: f64,
 ) -> Settled {
     let certificate = certify(case, &level.at, settings.tolerance, remaining);
-    let node_updates = levels
-        .iter()
-        .map(|level| (level.nodes * level.sweeps) as u64)
-        .sum();
     Settled {
         lattice: level.lattice.clone(),
         contact: level.touches.loads(&level.at),
@@ -136,7 +130,7 @@ fn finish(
         shape: drape_shape(case, &level.at),
         certificate,
         levels,
-        node_updates,
+        node_updates: 0,
         frames: Vec::new(),
         positions: level.at,
     }

@@ -37,6 +37,12 @@ const RESTLESS_SWEEPS: usize = 3;
 const MOST_VISITS: usize = 60;
 /// A node counts as damped where damping times pitch is above this.
 const DAMPED: f64 = 0.1;
+/// A step that asks for more than so many trusted lengths is asked for again, with the nodes that
+/// did damped: cut short as it is, it would bring the rest of the cloth nowhere.
+const TOO_FAR: f64 = 2.0;
+const ASKED_AGAIN: usize = 3;
+/// All nodes are damped tenfold at most so often for a matrix that cannot be factored.
+const DAMPED_MORE: usize = 12;
 /// A step is halved at most so often.
 const HALVINGS: usize = 8;
 
@@ -175,11 +181,14 @@ impl Joint {
 
     /// A step by the exact matrix with damping, led by factors of the positive one.
     fn damped_step(&mut self, level: &mut Level<'_>, forces: &[Vec3]) -> Option<Step> {
-        self.assemble(level, Kind::PositiveDamped);
-        let factor = Factor::new(&self.plan, &self.positive)?;
-        self.assemble(level, Kind::Damped);
-        let far = 4.0 * self.radius;
-        let model = Model::new(&self.plan, &factor, &self.exact, forces, far);
+        let (mut factor, mut model) = self.ask(level, forces)?;
+        for _ in 0..ASKED_AGAIN {
+            if longest(&model.moves) <= TOO_FAR * self.radius {
+                break;
+            }
+            self.damp(&model.moves);
+            (factor, model) = self.ask(level, forces)?;
+        }
         let asked = longest(&model.moves);
         let made = if asked.is_finite() {
             self.descend(level, &factor, &model.moves, &model.first)
@@ -191,7 +200,8 @@ impl Joint {
             .iter()
             .filter(|damping| **damping > DAMPED / level.lattice.pitch);
         let free = 100 * damped.count() <= level.at.len();
-        self.learn(level.lattice.pitch, &model.moves);
+        self.damp(&model.moves);
+        self.free(level.lattice.pitch, &model.moves);
         self.mark_restless(level, &model.moves, asked);
         let still = made > 0.0 || asked == 0.0;
         self.near = free && asked < NEAR * level.lattice.pitch && still;
@@ -209,15 +219,46 @@ impl Joint {
         self.restless = level.colours.iter().map(of_colour).collect();
     }
 
-    /// Damps nodes that asked for more than is trusted, and frees others.
-    fn learn(&mut self, pitch: f64, moves: &[Vec3]) {
-        let least = LEAST_DAMPING / pitch;
+    /// What the damped model asks for, and the factors that led to it.
+    fn ask(&mut self, level: &Level<'_>, forces: &[Vec3]) -> Option<(Factor, Model)> {
+        let factor = self.positive_factor(level)?;
+        self.assemble(level, Kind::Damped);
+        let far = 4.0 * self.radius;
+        let model = Model::new(&self.plan, &factor, &self.exact, forces, far);
+        Some((factor, model))
+    }
+
+    /// Factors of the positive matrix; where rounding makes it indefinite, as crushed rods may, all
+    /// nodes are damped more.
+    fn positive_factor(&mut self, level: &Level<'_>) -> Option<Factor> {
+        for _ in 0..DAMPED_MORE {
+            self.assemble(level, Kind::PositiveDamped);
+            let factor = Factor::new(&self.plan, &self.positive);
+            if factor.is_some() {
+                return factor;
+            }
+            for damping in &mut self.damping {
+                *damping *= 10.0;
+            }
+        }
+        None
+    }
+
+    /// Damps nodes that asked for more than is trusted.
+    fn damp(&mut self, moves: &[Vec3]) {
         for (damping, way) in self.damping.iter_mut().zip(moves) {
             let asked = way.norm() / self.radius;
-            if asked < 0.5 {
-                *damping = (*damping * 0.5).max(least);
-            } else if asked > 1.0 {
+            if asked > 1.0 {
                 *damping = damping.max(0.1 / self.radius) * asked.clamp(1.5, 10.0);
+            }
+        }
+    }
+
+    /// Frees nodes that asked for little.
+    fn free(&mut self, pitch: f64, moves: &[Vec3]) {
+        for (damping, way) in self.damping.iter_mut().zip(moves) {
+            if way.norm() < 0.5 * self.radius {
+                *damping = (*damping * 0.5).max(LEAST_DAMPING / pitch);
             }
         }
     }

@@ -6,8 +6,8 @@ use super::{
     stiffness::Stiffness,
 };
 use crate::{
-    body::Bodies, certificate::Case, contact::Touches, forces::Sheet, lattice::Lattice,
-    math::Vec3, threads,
+    body::Bodies, certificate::Case, contact::Touches, forces::Sheet, lattice::Lattice, math::Vec3,
+    threads,
 };
 
 /// The state of one level.

@@ -65,7 +65,10 @@ impl Joint {
 }
 
 fn of<T>(part: &Part, value: impl Fn(usize) -> T) -> Vec<T> {
-    part.nodes.iter().map(|node| value(*node as usize)).collect()
+    part.nodes
+        .iter()
+        .map(|node| value(*node as usize))
+        .collect()
 }
 
 /// The vices that act in a part.

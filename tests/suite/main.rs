@@ -27,6 +27,7 @@ mod laws_contact;
 mod laws_paper;
 mod layers;
 mod maps;
+mod open_bodies;
 mod picture;
 mod scenes;
 mod solved;

@@ -138,7 +138,8 @@ pub(crate) fn hang_at(text: &str, tolerance: f64, rounds: usize) -> Settled {
     settled(&scene, &settings, rounds)
 }
 
-fn settled(scene: &Scene, settings: &Settings, rounds: usize) -> Settled {
+/// Where a scene comes to rest, or where it is after so many rounds on all levels.
+pub(crate) fn settled(scene: &Scene, settings: &Settings, rounds: usize) -> Settled {
     let mut left = rounds;
     let mut watch = |_: &Progress| {
         left = left.saturating_sub(1);
