@@ -4,7 +4,8 @@
 //! 1. Two derivatives of all forces by all positions are assembled: the exact one, and one without
 //!    its negative directions, which is factored. Each node's weight, times a damping of its own,
 //!    is added to both.
-//! 2. The exact one is solved by conjugate gradients that the factors lead.
+//! 2. The exact one is solved by conjugate gradients that the factors lead. Where nodes ask for far
+//!    more than is trusted, they are damped and it is solved again.
 //! 3. The step is cut to the trusted length, and each node to the way that bodies leave free. It is
 //!    corrected for what turning has lengthened, and halved until the energy falls.
 //! 4. Nodes that asked for too much are damped more next time, others less: a flap that swings
