@@ -82,12 +82,17 @@ impl Bodies {
     /// sheet stands between the two, the cloth has gone through it, and the point counts as inside.
     #[must_use]
     pub fn near_from(&self, from: &Vec3, point: &Vec3, reach: f64) -> Vec<Near> {
+        self.within(from, point, reach, reach.max(DEEP))
+    }
+
+    /// As [`near_from`](Self::near_from), with surfaces sought no farther than `search` [cm].
+    fn within(&self, from: &Vec3, point: &Vec3, reach: f64, search: f64) -> Vec<Near> {
         let (from, centre) = (Vector::from(*from), Vector::from(*point));
         let mut around = Aabb::new(centre - Vector::splat(reach), centre + Vector::splat(reach));
         around.take_point(from);
         let nearest = |index| {
             let part = &self.parts[index];
-            let near = nearest(part, index, point, f64::MAX, reach.max(DEEP))?;
+            let near = nearest(part, index, point, search)?;
             let near = seen_from(part, near, &from, &centre);
             (near.distance <= reach).then_some(near)
         };
@@ -103,13 +108,16 @@ impl Bodies {
     /// Depth of a point in the solids [cm]: positive inside, 0 outside.
     #[must_use]
     pub fn depth(&self, point: &Vec3) -> f64 {
-        let centre = Vector::from(*point);
-        let inside = |part| nearest(&self.parts[part], part, point, 0.0, f64::MAX);
-        let inside = self
-            .in_box(&Aabb::new(centre, centre))
-            .into_iter()
-            .filter_map(inside);
-        inside.map(|near| -near.distance).fold(0.0, f64::max)
+        self.depth_from(point, point)
+    }
+
+    /// Depth of a point of a cloth that has another point at `from` [cm]: inside a solid, or
+    /// beyond a sheet that stands between the two.
+    #[must_use]
+    pub fn depth_from(&self, from: &Vec3, point: &Vec3) -> f64 {
+        let inside = self.within(from, point, 0.0, f64::MAX);
+        let depths = inside.iter().map(|near| -near.distance);
+        depths.fold(0.0, f64::max)
     }
 
     /// The fraction of a straight move that passes through no surface, 1 where all of it is free.
@@ -182,7 +190,7 @@ impl Bodies {
             }
             let normal = Vec3::from(hit.normal);
             let shallow = |near: Near| near.distance > -SHALLOW && near.normal.dot(&normal) > 0.5;
-            if nearest(part, index, to, 0.0, DEEP).is_none_or(shallow) && holds(part, to) {
+            if nearest(part, index, to, DEEP).is_none_or(shallow) && holds(part, to) {
                 return 1.0;
             }
         }
@@ -223,16 +231,15 @@ fn holds(part: &Part, point: &Vec3) -> bool {
     part.shape().contains_point(part.pose(), (*point).into())
 }
 
-/// The nearest point of one part's surface, if within `reach` or if the point is inside, by no more
-/// than `search`.
-fn nearest(part: &Part, index: usize, point: &Vec3, reach: f64, search: f64) -> Option<Near> {
+/// The nearest point of one part's surface, if it is no farther than `search` [cm].
+fn nearest(part: &Part, index: usize, point: &Vec3, search: f64) -> Option<Near> {
     let (shape, pose) = (part.shape(), part.pose());
     if let Some(ball) = shape.as_ball() {
         // In closed form: parry's answer at the very centre is not a number.
         let out = *point - Vec3::from(pose.translation);
         let distance = out.norm() - ball.radius;
         let normal = out.try_normalize(ON_THE_SURFACE).unwrap_or_else(Vec3::z);
-        return (distance <= reach).then_some(Near {
+        return Some(Near {
             part: index,
             distance,
             normal,
@@ -242,9 +249,6 @@ fn nearest(part: &Part, index: usize, point: &Vec3, reach: f64, search: f64) -> 
     let inside = part.nature() == Nature::Solid && found.is_inside;
     let away = *point - Vec3::from(found.point);
     let size = away.norm();
-    if !(size <= reach || inside) {
-        return None;
-    }
     let normal = if size > ON_THE_SURFACE {
         away * (if inside { -1.0 } else { 1.0 } / size)
     } else {

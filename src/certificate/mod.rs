@@ -230,9 +230,7 @@ fn deepest(lattice: &Lattice, bodies: &Bodies, at: &[Vec3]) -> f64 {
         let corners = lattice.cells[cell].map(|node| at[node as usize]);
         let depth = |place: [f64; 2]| {
             let point = blend(&corners, place[0], place[1]);
-            let through = bodies.near_from(&corners[corner_of(place)], &point, 0.0);
-            let through = through.iter().map(|near| -near.distance);
-            through.fold(bodies.depth(&point), f64::max)
+            bodies.depth_from(&corners[corner_of(place)], &point)
         };
         samples(|k| k as f64 / 3.0).map(depth).fold(0.0, f64::max)
     };

@@ -1,24 +1,24 @@
-//! The touches of a part of a cloth, taken out of the whole's and put back.
+//! The touches of a patch of a cloth, taken out of the whole's and put back.
 
 use super::{Site, Touch, Touches};
-use crate::lattice::Part;
+use crate::lattice::Patch;
 
 impl Touches {
-    /// The touches of a part of the cloth, with all they remember.
+    /// The touches of a patch of the cloth, with all they remember.
     #[must_use]
-    pub fn of_part(&self, part: &Part) -> Self {
-        let mut own = Self::new(&part.lattice, self.surface);
-        for (clearance, node) in own.clearance.iter_mut().zip(&part.nodes) {
+    pub fn of_patch(&self, patch: &Patch) -> Self {
+        let mut own = Self::new(&patch.lattice, self.surface);
+        for (clearance, node) in own.clearance.iter_mut().zip(&patch.nodes) {
             *clearance = self.clearance[*node as usize];
         }
-        for (places, cell) in own.places.iter_mut().zip(&part.cells) {
+        for (places, cell) in own.places.iter_mut().zip(&patch.cells) {
             *places = self.places[*cell as usize];
         }
-        let sites = self.numbers_of(part).zip(own.numbers());
+        let sites = self.numbers_of(patch).zip(own.numbers());
         for (there, here) in sites {
             for touch in self.at_site(there) {
-                // All nodes of a part's sites are in the part.
-                let site = renumbered(&touch.site, |node| part.number_of(node).unwrap_or(node));
+                // All nodes of a patch's sites are in it.
+                let site = renumbered(&touch.site, |node| patch.number_of(node).unwrap_or(node));
                 own.touches.push(Touch {
                     number: here,
                     site,
@@ -30,22 +30,22 @@ impl Touches {
         own
     }
 
-    /// Takes a part's touches, with all they remember, back into the whole's.
-    pub fn adopt(&mut self, own: &Self, part: &Part) {
-        for (clearance, node) in own.clearance.iter().zip(&part.nodes) {
+    /// Takes a patch's touches, with all they remember, back into the whole's.
+    pub fn adopt(&mut self, own: &Self, patch: &Patch) {
+        for (clearance, node) in own.clearance.iter().zip(&patch.nodes) {
             self.clearance[*node as usize] = *clearance;
         }
-        for (places, cell) in own.places.iter().zip(&part.cells) {
+        for (places, cell) in own.places.iter().zip(&patch.cells) {
             self.places[*cell as usize] = *places;
         }
-        let mut replaced = self.numbers_of(part).peekable();
+        let mut replaced = self.numbers_of(patch).peekable();
         self.touches.retain(|touch| {
             while replaced.next_if(|number| *number < touch.number).is_some() {}
             replaced.peek() != Some(&touch.number)
         });
-        for (there, here) in self.numbers_of(part).zip(own.numbers()) {
+        for (there, here) in self.numbers_of(patch).zip(own.numbers()) {
             for touch in own.at_site(here) {
-                let site = renumbered(&touch.site, |node| part.nodes[node as usize]);
+                let site = renumbered(&touch.site, |node| patch.nodes[node as usize]);
                 self.touches.push(Touch {
                     number: there,
                     site,
@@ -63,15 +63,15 @@ impl Touches {
         0..(self.clearance.len() + cells) as u32
     }
 
-    /// The numbers that a part's sites have in the whole, in order.
-    fn numbers_of<'a>(&self, part: &'a Part) -> impl Iterator<Item = u32> + use<'a> {
+    /// The numbers that a patch's sites have in the whole, in order.
+    fn numbers_of<'a>(&self, patch: &'a Patch) -> impl Iterator<Item = u32> + use<'a> {
         let (nodes, each) = (self.clearance.len(), self.sites_of_cell());
         let of_cell = move |cell: &u32| {
             let first = nodes + *cell as usize * each;
             (first..first + each).map(|number| number as u32)
         };
-        let cells = part.cells.iter().flat_map(of_cell);
-        part.nodes.iter().copied().chain(cells)
+        let cells = patch.cells.iter().flat_map(of_cell);
+        patch.nodes.iter().copied().chain(cells)
     }
 
     /// The touches of a site.

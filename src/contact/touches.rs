@@ -304,17 +304,6 @@ impl Touches {
         }
     }
 
-    /// Moves the anchors of sliding touches up, so that from here on friction opposes new slip.
-    pub fn drag_anchors(&mut self, at: &[Vec3]) {
-        for touch in &mut self.touches {
-            let slip = touch.slip(&touch.site.at(at));
-            let size = slip.norm();
-            if size > touch.friction.give {
-                touch.anchor += slip * (1.0 - touch.friction.give / size);
-            }
-        }
-    }
-
     /// Contact projection: brings sites that a long move took deep into the skin back to where they
     /// press little harder than before. `may_move` says which nodes may be moved for it.
     pub fn bring_back(&self, from: &[Vec3], to: &mut [Vec3], may_move: impl Fn(usize) -> bool) {

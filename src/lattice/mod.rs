@@ -15,7 +15,7 @@ mod grain;
 mod grid;
 mod locate;
 mod outline;
-mod part;
+mod patch;
 mod ring;
 #[cfg(test)]
 pub(crate) mod sample;
@@ -26,7 +26,7 @@ pub use cut::CutError;
 pub use fault::OutlineError;
 pub use locate::{Locator, Place};
 pub use outline::{Edge, Outline};
-pub use part::Part;
+pub use patch::Patch;
 
 use crate::{fabric::Yarn, math::Vec2};
 

@@ -182,6 +182,7 @@ mod tests {
                 nodes: 961,
                 sweeps: 210,
                 joint_steps: 3,
+                updates: 3_123_456,
             }],
             node_updates: 3_123_456,
             frames: Vec::new(),

@@ -1,13 +1,14 @@
 //! A shape carried from one lattice to a finer one.
 
-use super::{level::Level, start::Start};
+use super::{
+    level::{Level, stopped},
+    start::Start,
+};
 use crate::{contact::Surface, lattice::Lattice, math::Vec3};
 
 /// A node that a finer cut put into a body is pushed out at most so often: the nearest surface
 /// beyond one may be another's.
 const PUSHES: usize = 3;
-/// A node that stays behind a sheet is put this far along the way that is free.
-const BEFORE_THE_SHEET: f64 = 0.9;
 
 /// Puts a level on the shape of a coarser one: held nodes where they are carried, free ones outside
 /// of the bodies, on the side where the coarse cloth is.
@@ -49,9 +50,8 @@ fn push_out(level: &mut Level<'_>, surface: &Surface, from: &[Vec3]) {
             let Some(near) = deepest(&at) else { break };
             at += near.normal * (surface.node_reach() - near.distance);
         }
-        let free = level.bodies.free_way(from, &at);
-        if deepest(&at).is_some() && free < 1.0 {
-            at = from + (at - from) * (BEFORE_THE_SHEET * free);
+        if deepest(&at).is_some() {
+            at = stopped(level.bodies, from, at);
         }
         level.at[node] = at;
     }

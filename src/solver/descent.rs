@@ -24,7 +24,7 @@ pub(super) fn descend(
     let surface = surface(problem);
     let lattices = cuts(problem, &surface)?;
     let mut before: Option<(&Lattice, Vec<Vec3>)> = None;
-    let (mut work, mut node_updates) = (Vec::new(), 0);
+    let mut work = Vec::new();
     let mut run = Run {
         watch,
         settings,
@@ -48,24 +48,23 @@ pub(super) fn descend(
             bodies: &problem.bodies,
             surface,
         };
-        let mut level = Level::new(&case, Touches::new(lattice, surface));
-        level.at = start.at.clone();
+        let touches = Touches::new(lattice, surface);
+        let mut level = Level::new(&case, touches, start.at.clone());
         if let Some((coarse, rest)) = &before {
             carry_over(&mut level, coarse, rest, &start, &surface);
         }
         start.disturb(&mut level.at, lattice, problem.seed);
         let remaining = run.rest(&mut level, &case, &start, number);
-        node_updates += level.updates;
         work.push(LevelWork {
             spacing: lattice.pitch,
             nodes: level.at.len(),
             sweeps: level.sweeps,
             joint_steps: level.joint_steps,
+            updates: level.updates,
         });
         if last {
             let settled = finish(&case, level, work, settings, remaining);
             return Ok(Settled {
-                node_updates,
                 frames: run.film.develop(&lattices),
                 ..settled
             });
@@ -129,8 +128,8 @@ fn finish(
         converged: certificate.holds(settings.tolerance),
         shape: drape_shape(case, &level.at),
         certificate,
+        node_updates: levels.iter().map(|level| level.updates).sum(),
         levels,
-        node_updates: 0,
         frames: Vec::new(),
         positions: level.at,
     }

@@ -32,8 +32,8 @@ pub(super) struct Level<'a> {
 }
 
 impl<'a> Level<'a> {
-    /// A lattice with what acts on it, its nodes not yet anywhere.
-    pub(super) fn new(case: &Case<'a>, touches: Touches) -> Self {
+    /// A lattice with what acts on it, its nodes at positions [cm].
+    pub(super) fn new(case: &Case<'a>, touches: Touches, at: Vec<Vec3>) -> Self {
         let free = |node: &u32| !case.held[*node as usize];
         let colours = case.lattice.colours().into_iter();
         Self {
@@ -45,7 +45,7 @@ impl<'a> Level<'a> {
             colours: colours
                 .map(|nodes| nodes.into_iter().filter(free).collect())
                 .collect(),
-            at: Vec::new(),
+            at,
             own_only: case.own_only,
             sweeps: 0,
             joint_steps: 0,
@@ -115,15 +115,20 @@ impl<'a> Level<'a> {
 
     /// Where a node may go instead of `to`: no farther than the first surface in its way.
     pub(super) fn free_way(&self, node: usize, to: Vec3) -> Vec3 {
-        let from = self.at[node];
-        if !self.touches.is_near(node) {
-            return to;
-        }
-        let free = self.bodies.free_way(&from, &to);
-        if free < 1.0 {
-            from + (to - from) * (0.9 * free)
+        if self.touches.is_near(node) {
+            stopped(self.bodies, &self.at[node], to)
         } else {
             to
         }
+    }
+}
+
+/// Where a straight move ends: before the first surface in its way.
+pub(super) fn stopped(bodies: &Bodies, from: &Vec3, to: Vec3) -> Vec3 {
+    let free = bodies.free_way(from, &to);
+    if free < 1.0 {
+        from + (to - from) * (0.9 * free)
+    } else {
+        to
     }
 }

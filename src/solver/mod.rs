@@ -125,6 +125,8 @@ pub struct Level {
     pub sweeps: usize,
     /// Joint steps: system (8) written for all nodes at once.
     pub joint_steps: usize,
+    /// Updates of single nodes.
+    pub updates: u64,
 }
 
 /// What came of it: a shape and the proof, or the lack of one.

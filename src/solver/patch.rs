@@ -4,11 +4,11 @@
 //! A fold moves along a hem in many short steps. In steps of all nodes together, each fold would
 //! wait for the most difficult one, and each step would cost as much as the whole cloth.
 
-use super::{joint::Joint, level::Level};
+use super::{dissection::Neighbours, joint::Joint, level::Level};
 use crate::{
     certificate::Case,
     forces::Clamp,
-    lattice::{Lattice, Part},
+    lattice::{Lattice, Patch},
 };
 
 /// A patch reaches so many rods beyond the nodes that still move.
@@ -30,18 +30,18 @@ impl Joint {
 
     /// Brings one patch nearer to rest.
     fn settle(&mut self, level: &mut Level<'_>, case: &Case<'_>, chosen: &[bool]) {
-        let part = case.lattice.part(chosen);
-        let held: Vec<bool> = of(&part, |node| level.held[node] || !chosen[node]);
-        let clamps = clamps_of(&part, case.clamps);
+        let patch = case.lattice.patch(chosen);
+        let held: Vec<bool> = of(&patch, |node| level.held[node] || !chosen[node]);
+        let clamps = clamps_of(&patch, case.clamps);
         let own_case = Case {
-            lattice: &part.lattice,
+            lattice: &patch.lattice,
             clamps: &clamps,
             held: &held,
             ..*case
         };
-        let mut own = Level::new(&own_case, level.touches.of_part(&part));
-        own.at = of(&part, |node| level.at[node]);
-        let damping = of(&part, |node| self.damping[node]);
+        let at = of(&patch, |node| level.at[node]);
+        let mut own = Level::new(&own_case, level.touches.of_patch(&patch), at);
+        let damping = of(&patch, |node| self.damping[node]);
         let mut joint = self.of_patch(&own, damping);
         let mut made = level.lattice.pitch;
         for _ in 0..ROUNDS {
@@ -53,81 +53,73 @@ impl Joint {
                 break;
             }
         }
-        for (number, node) in part.nodes.iter().enumerate() {
+        for (number, node) in patch.nodes.iter().enumerate() {
             if !held[number] {
                 level.at[*node as usize] = own.at[number];
                 self.damping[*node as usize] = joint.damping[number];
             }
         }
         level.updates += own.updates;
-        level.touches.adopt(&own.touches, &part);
+        level.touches.adopt(&own.touches, &patch);
     }
 }
 
-fn of<T>(part: &Part, value: impl Fn(usize) -> T) -> Vec<T> {
-    part.nodes
+fn of<T>(patch: &Patch, value: impl Fn(usize) -> T) -> Vec<T> {
+    patch
+        .nodes
         .iter()
         .map(|node| value(*node as usize))
         .collect()
 }
 
-/// The vices that act in a part.
-fn clamps_of(part: &Part, clamps: &[Clamp]) -> Vec<Clamp> {
-    let in_part = |clamp: &Clamp| {
-        let [held, next] = clamp.nodes.map(|node| part.number_of(node));
+/// The vices that act in a patch.
+fn clamps_of(patch: &Patch, clamps: &[Clamp]) -> Vec<Clamp> {
+    let in_patch = |clamp: &Clamp| {
+        let [held, next] = clamp.nodes.map(|node| patch.number_of(node));
         Some(Clamp {
             nodes: [held?, next?],
             ..*clamp
         })
     };
-    clamps.iter().filter_map(in_part).collect()
+    clamps.iter().filter_map(in_patch).collect()
 }
 
 /// The marks of each patch: nodes near the restless ones, in pieces that share no rod. None where
 /// they are too much of the cloth.
 fn patches(lattice: &Lattice, restless: Vec<u32>) -> Vec<Vec<bool>> {
     let count = lattice.coordinates.len();
+    let rods: Vec<[u32; 2]> = lattice.rods.iter().map(|rod| rod.nodes).collect();
+    let beside = Neighbours::new(count, &rods);
     let mut marked = vec![false; count];
-    for node in restless {
-        marked[node as usize] = true;
-    }
-    for _ in 0..MARGIN {
-        let before = marked.clone();
-        for rod in &lattice.rods {
-            let [a, b] = rod.nodes.map(|node| node as usize);
-            marked[a] |= before[b];
-            marked[b] |= before[a];
-        }
+    let mut rim = restless;
+    for _ in 0..=MARGIN {
+        rim.retain(|node| !core::mem::replace(&mut marked[*node as usize], true));
+        rim = rim
+            .iter()
+            .flat_map(|node| beside.of(*node))
+            .copied()
+            .collect();
     }
     let size = marked.iter().filter(|marked| **marked).count();
     if size as f64 > WORTH_IT * count as f64 {
         return Vec::new();
     }
-    pieces(lattice, &marked)
+    pieces(&mut marked, &beside)
 }
 
-/// Parts the marked nodes into pieces that hang together by rods.
-fn pieces(lattice: &Lattice, marked: &[bool]) -> Vec<Vec<bool>> {
-    let mut beside = vec![Vec::new(); marked.len()];
-    for rod in &lattice.rods {
-        let [a, b] = rod.nodes;
-        if marked[a as usize] && marked[b as usize] {
-            beside[a as usize].push(b as usize);
-            beside[b as usize].push(a as usize);
-        }
-    }
-    let mut seen = vec![false; marked.len()];
+/// Takes the marked nodes apart into pieces that hang together by rods.
+fn pieces(marked: &mut [bool], beside: &Neighbours) -> Vec<Vec<bool>> {
     let mut pieces = Vec::new();
     for first in 0..marked.len() {
-        if !marked[first] || seen[first] {
+        if !marked[first] {
             continue;
         }
         let mut piece = vec![false; marked.len()];
-        let mut waiting = vec![first];
+        let mut waiting = vec![first as u32];
         while let Some(node) = waiting.pop() {
-            if !core::mem::replace(&mut seen[node], true) {
-                piece[node] = true;
-                waiting.extend(beside[node].iter().copied());
+            if core::mem::replace(&mut marked[node as usize], false) {
+                piece[node as usize] = true;
+                waiting.extend(beside.of(node));
             }
         }
         pieces.push(piece);

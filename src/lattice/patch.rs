@@ -1,11 +1,11 @@
-//! A part of a lattice as a lattice of its own.
+//! A patch of a lattice as a lattice of its own.
 
 use crate::lattice::Lattice;
 
 /// Some nodes of a lattice with all that acts on them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
-    /// The part: every rod, bend, corner and cell with a chosen node, and all their nodes, in the
+pub struct Patch {
+    /// The patch: every rod, bend, corner and cell with a chosen node, and all their nodes, in the
     /// order of the whole.
     pub lattice: Lattice,
     /// The whole's number of each of its nodes.
@@ -14,8 +14,8 @@ pub struct Part {
     pub cells: Vec<u32>,
 }
 
-impl Part {
-    /// The part's number of a node of the whole, if it is in the part.
+impl Patch {
+    /// The patch's number of a node of the whole, if it is in the patch.
     #[must_use]
     pub fn number_of(&self, node: u32) -> Option<u32> {
         let number = self.nodes.binary_search(&node).ok()?;
@@ -24,47 +24,43 @@ impl Part {
 }
 
 impl Lattice {
-    /// The part around the chosen nodes: what each of them feels in the part is what it feels in
+    /// The patch around the chosen nodes: what each of them feels in the patch is what it feels in
     /// the whole. `chosen` has one mark for each node.
     #[must_use]
-    pub fn part(&self, chosen: &[bool]) -> Part {
+    pub fn patch(&self, chosen: &[bool]) -> Patch {
         let touches = |nodes: &[u32]| nodes.iter().any(|node| chosen[*node as usize]);
         let rods = self.rods.iter().filter(|rod| touches(&rod.nodes));
         let bends = self.bends.iter().filter(|bend| touches(&bend.nodes));
         let corners = self.corners.iter().filter(|corner| touches(&corner.nodes));
-        let cells = (0_u32..)
-            .zip(&self.cells)
-            .filter(|(_, cell)| touches(*cell));
-        let mut part = Self {
+        let cells = (0_u32..).zip(&self.cells);
+        let (cells, nodes_of_cells) = cells.filter(|(_, cell)| touches(*cell)).unzip();
+        let mut lattice = Self {
             pitch: self.pitch,
             rods: rods.copied().collect(),
             bends: bends.copied().collect(),
             corners: corners.copied().collect(),
+            cells: nodes_of_cells,
             ..Self::default()
         };
-        let (cells, corners_of_cells) = cells.unzip();
-        part.cells = corners_of_cells;
-        let mut number = vec![u32::MAX; chosen.len()];
-        for (node, chosen) in chosen.iter().enumerate() {
-            number[node] = if *chosen { 0 } else { u32::MAX };
-        }
-        part.each_node(|node| number[*node as usize] = 0);
-        let mut nodes = Vec::new();
-        for (node, number) in (0_u32..).zip(&mut number) {
-            if *number == 0 {
-                *number = nodes.len() as u32;
-                nodes.push(node);
-            }
-        }
-        part.each_node(|node| *node = number[*node as usize]);
-        part.coordinates = of(&self.coordinates, &nodes);
-        part.grid = of(&self.grid, &nodes);
-        part.area = of(&self.area, &nodes);
-        Part {
-            lattice: part,
+        let mut kept = chosen.to_vec();
+        lattice.each_node(|node| kept[*node as usize] = true);
+        let nodes: Vec<u32> = (0..)
+            .zip(&kept)
+            .filter(|(_, kept)| **kept)
+            .map(|(node, _)| node)
+            .collect();
+        lattice.coordinates = of(&self.coordinates, &nodes);
+        lattice.grid = of(&self.grid, &nodes);
+        lattice.area = of(&self.area, &nodes);
+        let mut patch = Patch {
+            lattice: Self::default(),
             nodes,
             cells,
-        }
+        };
+        // Every node that the lists name was kept.
+        lattice.each_node(|node| *node = patch.number_of(*node).unwrap_or(*node));
+        patch.lattice = lattice;
+        patch
     }
 
     /// Every node that a rod, a bend, a corner or a cell names.
@@ -92,15 +88,15 @@ mod tests {
     use crate::lattice::{Outline, sample::cut};
 
     #[test]
-    fn a_part_has_all_that_acts_on_its_nodes() {
+    fn a_patch_has_all_that_acts_on_its_nodes() {
         let lattice = cut(Outline::disc(5.0).unwrap(), 20.0, 0.7);
         let middle = |at: &crate::math::Vec2| at.norm() < 2.0;
         let chosen: Vec<bool> = lattice.coordinates.iter().map(middle).collect();
-        let part = lattice.part(&chosen);
-        let here = |node: &u32| part.nodes[*node as usize];
+        let patch = lattice.patch(&chosen);
+        let here = |node: &u32| patch.nodes[*node as usize];
         for (node, _) in (0_u32..).zip(&chosen).filter(|(_, chosen)| **chosen) {
             let of_whole = |nodes: &[u32]| nodes.contains(&node);
-            let of_part = |nodes: &[u32]| nodes.iter().any(|n| here(n) == node);
+            let of_patch = |nodes: &[u32]| nodes.iter().any(|n| here(n) == node);
             let rods = |all: &crate::lattice::Lattice, is: &dyn Fn(&[u32]) -> bool| {
                 [
                     all.rods.iter().filter(|rod| is(&rod.nodes)).count(),
@@ -109,17 +105,17 @@ mod tests {
                     all.cells.iter().filter(|cell| is(&cell[..])).count(),
                 ]
             };
-            assert_eq!(rods(&lattice, &of_whole), rods(&part.lattice, &of_part));
+            assert_eq!(rods(&lattice, &of_whole), rods(&patch.lattice, &of_patch));
         }
-        for (number, node) in part.nodes.iter().enumerate() {
+        for (number, node) in patch.nodes.iter().enumerate() {
             assert_eq!(
-                part.lattice.coordinates[number],
+                patch.lattice.coordinates[number],
                 lattice.coordinates[*node as usize]
             );
         }
-        for (cell, whole) in part.lattice.cells.iter().zip(&part.cells) {
+        for (cell, whole) in patch.lattice.cells.iter().zip(&patch.cells) {
             assert_eq!(cell.map(|node| here(&node)), lattice.cells[*whole as usize]);
         }
-        assert_eq!(lattice.part(&vec![true; chosen.len()]).lattice, lattice);
+        assert_eq!(lattice.patch(&vec![true; chosen.len()]).lattice, lattice);
     }
 }
