@@ -228,9 +228,12 @@ fn deepest(lattice: &Lattice, bodies: &Bodies, at: &[Vec3]) -> f64 {
     }
     let of_cell = |cell: usize| {
         let corners = lattice.cells[cell].map(|node| at[node as usize]);
+        // Straight ways from the first and the third node to any point run in the cloth itself,
+        // so that where they pass a sheet, the cloth does.
         let depth = |place: [f64; 2]| {
             let point = blend(&corners, place[0], place[1]);
-            bodies.depth_from(&corners[corner_of(place)], &point)
+            let depth = |from: &Vec3| bodies.depth_from(from, &point);
+            depth(&corners[0]).max(depth(&corners[2]))
         };
         samples(|k| k as f64 / 3.0).map(depth).fold(0.0, f64::max)
     };

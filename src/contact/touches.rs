@@ -382,10 +382,12 @@ impl Touches {
         (force, stiffness)
     }
 
-    /// Whether a node is near a body.
+    /// Whether nothing can be in a node's way: both ends of it are nearer to where the node's
+    /// clearance was measured than any surface was.
     #[must_use]
-    pub fn is_near(&self, node: usize) -> bool {
-        !self.of_node[node].is_empty()
+    pub fn is_clear(&self, node: usize, from: &Vec3, to: &Vec3) -> bool {
+        let (clear, there) = self.clearance[node];
+        (from - there).norm().max((to - there).norm()) < clear
     }
 
     /// Normal force of the bodies on each node [gf].

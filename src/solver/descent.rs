@@ -53,7 +53,7 @@ pub(super) fn descend(
         if let Some((coarse, rest)) = &before {
             carry_over(&mut level, coarse, rest, &start, &surface);
         }
-        start.disturb(&mut level.at, lattice, problem.seed);
+        start.disturb(&mut level.at, lattice, problem);
         let remaining = run.rest(&mut level, &case, &start, number);
         work.push(LevelWork {
             spacing: lattice.pitch,

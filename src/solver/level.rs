@@ -115,10 +115,11 @@ impl<'a> Level<'a> {
 
     /// Where a node may go instead of `to`: no farther than the first surface in its way.
     pub(super) fn free_way(&self, node: usize, to: Vec3) -> Vec3 {
-        if self.touches.is_near(node) {
-            stopped(self.bodies, &self.at[node], to)
-        } else {
+        let from = &self.at[node];
+        if self.touches.is_clear(node, from, &to) {
             to
+        } else {
+            stopped(self.bodies, from, to)
         }
     }
 }

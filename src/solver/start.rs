@@ -1,6 +1,6 @@
 //! Where a drape begins: the flat cloth in its place, its holds, and a breath of disorder.
 
-use super::{Grip, Problem, Unsolvable};
+use super::{Grip, Problem, Unsolvable, level::stopped};
 use crate::{
     contact::{Sites, Surface},
     forces::Clamp,
@@ -125,18 +125,21 @@ impl Start {
         Some(())
     }
 
-    /// Moves every free node by a hash of the seed and its place, far below the pitch.
-    pub(super) fn disturb(&self, at: &mut [Vec3], lattice: &Lattice, seed: u64) {
+    /// Moves every free node by a hash of the seed and its place, far below the pitch and through no
+    /// surface.
+    pub(super) fn disturb(&self, at: &mut [Vec3], lattice: &Lattice, problem: &Problem) {
         for ((position, grid), held) in at.iter_mut().zip(&lattice.grid).zip(&self.held) {
             if *held {
                 continue;
             }
             let place = (grid[0] as u32 as u64) << 32 | grid[1] as u32 as u64;
+            let mut to = *position;
             for axis in 0..3 {
-                let number = mix(mix(seed ^ (axis as u64 + 1)) ^ place);
+                let number = mix(mix(problem.seed ^ (axis as u64 + 1)) ^ place);
                 let unit = (number >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
-                position[axis] += 2.0 * unit * DISORDER * lattice.pitch;
+                to[axis] += 2.0 * unit * DISORDER * lattice.pitch;
             }
+            *position = stopped(&problem.bodies, position, to);
         }
     }
 }
