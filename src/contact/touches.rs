@@ -96,6 +96,11 @@ impl Touches {
         }
     }
 
+    /// Sets Coulomb friction [-] from the next look at the loads on.
+    pub fn rub(&mut self, friction: f64) {
+        self.surface.friction = friction;
+    }
+
     /// The touches.
     #[must_use]
     pub fn list(&self) -> &[Touch] {

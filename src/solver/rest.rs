@@ -27,8 +27,13 @@ const SETTLED: f64 = 1e-3;
 const SWINGING: f64 = 0.02;
 /// Rounds of short steps before a swing is accepted.
 const PATIENCE: usize = 8;
-/// Rounds of short steps before their contraction is known.
+/// Rounds of short steps before their contraction is known: an estimate is the worst of so many.
 const ACQUAINTED: usize = 3;
+/// While the cloth lands, friction is so many times as strong: the forces of a cloth far from rest
+/// are not those that it will rest under, and would drag it along by chance. It has landed when a
+/// step asks for less than this part of a pitch.
+const LANDING_GRIP: f64 = 10.0;
+const LANDED: f64 = 0.2;
 /// Sweeps between two looks at the residual where there are no joint steps.
 const PLAIN_SWEEPS: usize = 20;
 /// No estimate of the way to rest is below this [cm]: the laws of contact are looked at anew only
@@ -54,6 +59,8 @@ struct Standing {
     residual: f64,
     /// Rounds of short, exact steps without a break.
     settled_for: usize,
+    /// What each of the last rounds alone said of the way to rest [cm], the last one first.
+    estimates: [f64; PATIENCE],
     /// Positions after the last round, and each node's way there from the round before [cm].
     at: Vec<Vec3>,
     way: Vec<Vec3>,
@@ -77,6 +84,7 @@ impl Run<'_> {
         let mut standing = Standing::new(level);
         if number == 0 {
             self.carry_holds(level, &mut joint, start, &standing);
+            level.touches.rub(LANDING_GRIP * case.surface.friction);
         }
         for round in 0.. {
             if !self.goes_on(level, number, &standing) {
@@ -86,6 +94,9 @@ impl Run<'_> {
                 break;
             };
             standing.count(&step, level.lattice.pitch);
+            if step.asked < LANDED * level.lattice.pitch {
+                level.touches.rub(case.surface.friction);
+            }
             if step.asked > CALM * level.lattice.pitch {
                 joint.settle_patches(level, case);
             }
@@ -163,13 +174,15 @@ impl Run<'_> {
         if short || round % 8 == 7 {
             standing.residual = greatest_residual(case, &level.at);
         }
-        let still = if standing.settled_for < PATIENCE {
-            (SETTLED * self.settings.tolerance / 1e-3).max(2.0 * LEAST_ESTIMATE)
-        } else {
-            SWINGING
-        };
         let at_rest = standing.residual <= 0.5 * self.settings.tolerance;
-        short && at_rest && standing.remaining < still
+        if !short || !at_rest {
+            return false;
+        }
+        let still = (SETTLED * self.settings.tolerance / 1e-3).max(2.0 * LEAST_ESTIMATE);
+        if standing.remaining >= still {
+            standing.remaining = standing.worst_of(PATIENCE);
+        }
+        standing.remaining < still || standing.remaining < SWINGING
     }
 
     /// The paper's ten forces have no energy, so no joint step: sweeps alone, until the certificate
@@ -213,6 +226,7 @@ impl Standing {
             remaining: f64::INFINITY,
             residual: f64::INFINITY,
             settled_for: 0,
+            estimates: [f64::INFINITY; PATIENCE],
             at: level.at.clone(),
             way: vec![Vec3::zeros(); level.at.len()],
         }
@@ -237,13 +251,20 @@ impl Standing {
             (*way, *from) = (next, *to);
         }
         let contraction = if square > 0.0 { along / square } else { 0.0 };
-        self.remaining = if self.settled_for < ACQUAINTED {
+        self.estimates.rotate_right(1);
+        self.estimates[0] = if self.settled_for == 0 {
             f64::INFINITY
         } else if longest <= LEAST_ESTIMATE {
             LEAST_ESTIMATE
         } else {
             longest / (1.0 - contraction.clamp(0.0, 1.0))
         };
+        self.remaining = self.worst_of(ACQUAINTED);
+    }
+
+    /// The worst that the last rounds said [cm].
+    fn worst_of(&self, rounds: usize) -> f64 {
+        self.estimates[..rounds].iter().copied().fold(0.0, f64::max)
     }
 }
 
