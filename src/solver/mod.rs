@@ -90,6 +90,29 @@ pub struct Problem {
     pub seed: u64,
 }
 
+/// A cut with fewer cells than this is none of the coarse ones that a solution goes through.
+const PREVIEWED_CELLS: usize = 50;
+
+impl Problem {
+    /// The same problem on one of the coarse cuts that its solution starts from: with a sixteenth of
+    /// the nodes, or a quarter, or all of a small cloth.
+    #[must_use]
+    pub fn preview(&self) -> Self {
+        let coarser = |times: f64| {
+            let mut coarse = self.clone();
+            coarse.piece.pitch *= times;
+            coarse
+        };
+        let shows = |coarse: &Self| {
+            let lattice = prepare(coarse);
+            lattice.is_ok_and(|lattice| lattice.cells.len() > PREVIEWED_CELLS)
+        };
+        let coarse = [4.0, 2.0].map(coarser);
+        let shown = coarse.into_iter().find(shows);
+        shown.unwrap_or_else(|| self.clone())
+    }
+}
+
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {

@@ -157,6 +157,17 @@ fn a_certified_drape_exits_with_0_and_writes_every_file() {
 }
 
 #[test]
+fn a_preview_is_marked_as_one() {
+    let trial = Trial::new();
+    trial.put("hang.toml", HANG.as_bytes());
+    let wish = ["drape", "hang.toml", "--preview", "--threads", "2"];
+    let said = trial.run(&[&wish[..], &["--out", "out", "--json"]].concat());
+    assert_eq!(said.code, 0, "{}", said.err);
+    let report: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!(report["title"], "hang (preview)");
+}
+
+#[test]
 fn a_drape_out_of_time_exits_with_3_and_says_so_everywhere() {
     let trial = Trial::new();
     trial.put("scene.toml", SCENE.as_bytes());

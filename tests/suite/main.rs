@@ -29,6 +29,7 @@ mod layers;
 mod maps;
 mod open_bodies;
 mod picture;
+mod preview;
 mod scenes;
 mod solved;
 mod specimen;

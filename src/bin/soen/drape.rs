@@ -24,11 +24,15 @@ use std::{
 };
 
 pub(crate) fn drape(wish: &Wish) -> Result<ExitCode, Failure> {
-    let scene = scene::read(&wish.scene)?;
+    let mut scene = scene::read(&wish.scene)?;
     try_folder(&wish.out)?;
     let threads = set_threads(wish.threads)?;
     let stop = stopped_by_ctrl_c()?;
     let begin = Instant::now();
+    if wish.preview {
+        scene.problem = scene.problem.preview();
+        scene.title += " (preview)";
+    }
     let settled = settle(wish, &scene, begin, &stop)?;
     let run = Run {
         title: &scene.title,

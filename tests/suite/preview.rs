@@ -1,0 +1,52 @@
+//! A preview is cheap, and looks like the fine drape.
+
+use crate::{
+    solved::solved,
+    specimen::{scene, settled},
+};
+use soen::{math::Vec3, solver::Settled};
+
+/// Heights of a preview's nodes, and of the fine drape's nodes nearest to them in the cloth [cm].
+fn heights(coarse: &Settled, fine: &Settled) -> Vec<[f64; 2]> {
+    let nodes = coarse.lattice.coordinates.iter().zip(&coarse.positions);
+    let pair = |(cloth, at): (&_, &Vec3)| {
+        let (node, _) = fine.lattice.nearest_node(*cloth).unwrap();
+        [at.z, fine.positions[node as usize].z]
+    };
+    nodes.map(pair).collect()
+}
+
+/// Pearson's correlation.
+fn correlation(pairs: &[[f64; 2]]) -> f64 {
+    let count = pairs.len() as f64;
+    let mean = |k: usize| pairs.iter().map(|pair| pair[k]).sum::<f64>() / count;
+    let middle = [mean(0), mean(1)];
+    let product = |j: usize, k: usize| {
+        let products = pairs.iter();
+        let products = products.map(|pair| (pair[j] - middle[j]) * (pair[k] - middle[k]));
+        products.sum::<f64>()
+    };
+    product(0, 1) / (product(0, 0) * product(1, 1)).sqrt()
+}
+
+#[test]
+fn a_preview_takes_a_tenth_of_the_work_and_stands_as_high_as_the_drape() {
+    for name in ["fig12b-full", "fig12c-two-balls", "two-balls"] {
+        let (scene, fine) = solved(name);
+        let mut preview = scene.clone();
+        preview.problem = scene.problem.preview();
+        let coarse = settled(&preview, &scene.settings, 900);
+        assert!(coarse.converged, "{name}: {:?}", coarse.certificate);
+        assert!(10 * coarse.node_updates <= fine.node_updates, "{name}");
+        let likeness = correlation(&heights(&coarse, fine));
+        assert!(likeness > 0.99, "{name}: {likeness}");
+    }
+}
+
+#[test]
+fn a_preview_of_a_small_cloth_is_the_cloth() {
+    let scene = scene(
+        "[cloth]\nfabric = \"c\"\nsize_cm = [9, 9]\nspacing_cm = 1\n[[hold]]\nedge = \"x-min\"\n",
+    );
+    assert_eq!(scene.problem.preview().piece.pitch, 1.0);
+}
