@@ -41,7 +41,7 @@ pub(crate) struct Wish {
     /// Folder for drape.obj, drape.glb, drape.png and report.json.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// Takes a quick look: the same cloth cut four times as coarse, in a tenth to a fifth of the
+    /// Takes a quick look: the same cloth cut four times as coarse, in a tenth to a quarter of the
     /// time. The fine drape starts from this one.
     #[arg(long)]
     pub(crate) preview: bool,
