@@ -85,4 +85,5 @@ pub mod scene;
 pub mod output;
 pub mod snapshot;
 
+mod lanes;
 mod threads;

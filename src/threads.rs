@@ -60,6 +60,32 @@ pub(crate) fn for_each_chunk<T: Send>(
     }
 }
 
+/// Calls `work` on every row of `length` entries, with its number: rows are shared out by eights.
+pub(crate) fn for_each_row<T: Send>(
+    entries: &mut [T],
+    length: usize,
+    work: impl Fn(usize, &mut [T]) + Sync + Send,
+) {
+    let rows = |(k, rows): (usize, &mut [T])| {
+        for (row, entries) in rows.chunks_mut(length).enumerate() {
+            work(8 * k + row, entries);
+        }
+    };
+    #[cfg(feature = "threads")]
+    {
+        use rayon::prelude::*;
+        // Below this, waking another core costs more than it takes off.
+        if entries.len() > 1 << 10 && rayon::current_num_threads() > 1 {
+            entries
+                .par_chunks_mut(8 * length)
+                .enumerate()
+                .for_each(rows);
+            return;
+        }
+    }
+    entries.chunks_mut(8 * length).enumerate().for_each(rows);
+}
+
 /// Does both, side by side where there are cores for it.
 pub(crate) fn both<A: Send, B: Send>(
     one: impl FnOnce() -> A + Send,

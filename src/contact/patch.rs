@@ -26,7 +26,7 @@ impl Touches {
                 });
             }
         }
-        own.list_by_node();
+        own.list_by_node(|_| true);
         own
     }
 
@@ -54,7 +54,7 @@ impl Touches {
             }
         }
         self.touches.sort_by_key(|touch| (touch.number, touch.part));
-        self.list_by_node();
+        self.list_by_node(|_| true);
     }
 
     /// The numbers of all sites, in order.

@@ -32,14 +32,14 @@ pub(crate) fn corner_of([u, v]: [f64; 2]) -> usize {
     }
 }
 
-/// Samples of a cell stand no farther apart than this [cm], where 4 to 8 a side allow it.
+/// Samples of a cell stand no farther apart than this [cm], where 2 to 4 a side allow it.
 const SAMPLE_DISTANCE: f64 = 0.2;
 
 impl Sites {
     /// The sites of a lattice.
     #[must_use]
     pub fn new(lattice: &Lattice) -> Self {
-        let side = (lattice.pitch / SAMPLE_DISTANCE).ceil().clamp(4.0, 8.0) as usize;
+        let side = (lattice.pitch / SAMPLE_DISTANCE).ceil().clamp(2.0, 4.0) as usize;
         Self {
             cells: lattice.cells.clone(),
             area: lattice.area.clone(),
@@ -107,16 +107,22 @@ impl Sites {
 
 impl Site {
     /// Where it is [cm].
+    #[inline]
     #[must_use]
     pub fn at(&self, positions: &[Vec3]) -> Vec3 {
-        if self.weights[0] == 1.0 {
-            return positions[self.nodes[0] as usize];
+        let [a, b, c, d] = self.nodes.map(|node| node as usize);
+        let [f, g, h, i] = self.weights;
+        if f == 1.0 {
+            return positions[a];
         }
-        let mut at = Vec3::zeros();
-        for (node, weight) in self.nodes.iter().zip(self.weights) {
-            at += positions[*node as usize] * weight;
-        }
-        at
+        positions[a] * f + positions[b] * g + positions[c] * h + positions[d] * i
+    }
+
+    /// Its share of a node [-].
+    #[must_use]
+    pub fn weight_of(&self, node: usize) -> f64 {
+        let place = self.nodes.iter().position(|other| *other as usize == node);
+        place.map_or(0.0, |place| self.weights[place])
     }
 
     /// Its nodes with weights that are not 0.

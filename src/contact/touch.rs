@@ -64,6 +64,22 @@ impl Touch {
         self.normal * load + self.friction.force(&self.slip(here))
     }
 
+    /// Force [gf] and stiffness [gf/cm] of the site at `here`; `None` where nothing touches.
+    #[inline]
+    pub(super) fn answer(&self, here: &Vec3) -> Option<(Vec3, Mat3)> {
+        let depth = self.top - self.normal.dot(here);
+        if depth <= 0.0 && self.friction.limit == 0.0 {
+            return None;
+        }
+        let (_, load, slope) = self.skin.answer(depth);
+        let slip = self.slip(here);
+        let normal = self.normal * self.normal.transpose();
+        Some((
+            self.normal * load + self.friction.force(&slip),
+            normal * slope + self.friction.stiffness(&slip, &self.normal),
+        ))
+    }
+
     /// Stiffness of the site at `here` [gf/cm]; `None` where nothing touches.
     pub(super) fn stiffness(&self, here: &Vec3) -> Option<Mat3> {
         let (_, load, slope) = self.skin.answer(self.top - self.normal.dot(here));

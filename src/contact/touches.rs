@@ -22,6 +22,10 @@ pub struct Surface {
     pub offset: f64,
     /// Pressure that a skin answers at 0.69 of its depths [gf/cm²].
     pub pressure: f64,
+    /// Depth of skin over which the force on nodes grows e-fold [cm].
+    pub node_skin: f64,
+    /// The same for the samples between them, which have no thickness to yield [cm].
+    pub sample_skin: f64,
 }
 
 impl Surface {
@@ -38,12 +42,13 @@ impl Surface {
     }
 }
 
-/// Depth of skin over which the force grows e-fold [cm].
-const SKIN_DEPTH: f64 = 0.004;
 /// A touch reaches this far beyond half the thickness [cm]: so deep an ordinary load presses.
 const REACH_BEYOND: f64 = 0.004;
 /// Slip at which friction reaches its limit [cm].
 const GIVE: f64 = 0.004;
+/// A friction limit that is this part below µ·N stays as it is: were it renewed at every look, load
+/// and friction could answer each other for ever.
+const LIMIT_KEPT: f64 = 0.001;
 /// Samples between nodes begin to touch this far outside [cm]: less than nodes, so that on a
 /// smooth body nodes carry and edges and sharp features meet samples.
 const SAMPLE_REACH: f64 = 0.005;
@@ -135,7 +140,7 @@ impl Touches {
             self.places[cell] = places;
         }
         self.touches = fresh;
-        self.list_by_node();
+        self.list_by_node(|_| true);
     }
 
     /// What a node has near it, and its clearance if it was measured anew.
@@ -248,9 +253,18 @@ impl Touches {
             .binary_search_by(|touch| (touch.number, touch.part).cmp(&key));
         let before = before.ok().map(|place| &self.touches[place]);
         let before = before.filter(|touch| touch.site == site);
-        let (area, reach) = match self.node_of(number) {
-            Some(node) => (self.sites.node_area(node), self.surface.node_reach()),
-            None => (self.sites.sample_area(), self.surface.sample_reach()),
+        let surface = &self.surface;
+        let (area, reach, skin) = match self.node_of(number) {
+            Some(node) => (
+                self.sites.node_area(node),
+                surface.node_reach(),
+                surface.node_skin,
+            ),
+            None => (
+                self.sites.sample_area(),
+                surface.sample_reach(),
+                surface.sample_skin,
+            ),
         };
         let (normal, turn) = before.map_or((near.normal, Vec3::zeros()), |touch| {
             settled_normal(touch, &near.normal)
@@ -264,7 +278,7 @@ impl Touches {
             top: normal.dot(&here) - near.distance + reach,
             skin: Skin {
                 scale: self.surface.pressure * area,
-                depth: SKIN_DEPTH,
+                depth: skin,
             },
             friction: Friction {
                 limit: before.map_or(0.0, |touch| touch.friction.limit),
@@ -285,15 +299,29 @@ impl Touches {
         self.sites.samples() + PLACES
     }
 
-    pub(super) fn list_by_node(&mut self) {
+    pub(super) fn list_by_node(&mut self, is_listed: impl Fn(usize) -> bool) {
         for list in &mut self.of_node {
             list.clear();
         }
         for (k, touch) in self.touches.iter().enumerate() {
+            if !is_listed(k) {
+                continue;
+            }
             for (node, _) in touch.site.shares() {
                 self.of_node[node as usize].push(k as u32);
             }
         }
+    }
+
+    /// Leaves out of the nodes' pulls, until the next look, all touches that neither press nor rub nor
+    /// would after a move of `way` [cm].
+    pub fn wake(&mut self, at: &[Vec3], way: f64) {
+        let wakes = threads::map(self.touches.len(), |k| {
+            let touch = &self.touches[k];
+            let clear = touch.normal.dot(&touch.site.at(at)) - touch.top;
+            touch.friction.limit > 0.0 || clear < way
+        });
+        self.list_by_node(|k| wakes[k]);
     }
 
     /// Sets every friction limit to µ times the normal force now. Touches that do not press let
@@ -305,7 +333,10 @@ impl Touches {
             if touch.friction.limit == 0.0 {
                 touch.anchor = here;
             }
-            touch.friction.limit = self.surface.friction * load;
+            let limit = self.surface.friction * load;
+            if !(limit * (1.0 - LIMIT_KEPT)..=limit).contains(&touch.friction.limit) {
+                touch.friction.limit = limit;
+            }
         }
     }
 
@@ -372,19 +403,42 @@ impl Touches {
         for k in &self.of_node[node] {
             let touch = &self.touches[*k as usize];
             let here = touch.site.at(at);
-            let Some(block) = touch.stiffness(&here) else {
+            let Some((push, block)) = touch.answer(&here) else {
                 continue;
             };
-            let weight: f64 = touch
-                .site
-                .shares()
-                .filter(|(n, _)| *n as usize == node)
-                .map(|(_, w)| w)
-                .sum();
-            force += touch.force(&here) * weight;
+            let weight = touch.site.weight_of(node);
+            force += push * weight;
             stiffness += block * (weight * weight);
         }
         (force, stiffness)
+    }
+
+    /// Whether a node, or a sample of its cells, is near a body.
+    #[must_use]
+    pub fn meets(&self, node: usize) -> bool {
+        !self.of_node[node].is_empty()
+    }
+
+    /// Whether friction acts on a node, by the last look at the loads.
+    #[must_use]
+    pub fn rubs(&self, node: usize) -> bool {
+        let mut touches = self.of_node[node].iter();
+        touches.any(|k| self.touches[*k as usize].friction.limit > 0.0)
+    }
+
+    /// Force on one node [gf] from its touches after it alone has moved by `way` [cm].
+    #[must_use]
+    pub fn force_after(&self, node: usize, way: &Vec3, at: &[Vec3]) -> Vec3 {
+        let mut force = Vec3::zeros();
+        for k in &self.of_node[node] {
+            let touch = &self.touches[*k as usize];
+            let weight = touch.site.weight_of(node);
+            let here = touch.site.at(at) + way * weight;
+            if touch.friction.limit > 0.0 || touch.top > touch.normal.dot(&here) {
+                force += touch.force(&here) * weight;
+            }
+        }
+        force
     }
 
     /// Whether nothing can be in a node's way: both ends of it are nearer to where the node's

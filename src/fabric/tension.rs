@@ -6,7 +6,10 @@
 //! buckles within one pitch. On that plateau the tension stays, so the tangent is 0 and the energy
 //! grows linearly.
 
-use crate::fabric::Curve;
+use crate::{
+    fabric::Curve,
+    lanes::{Lanes, Simd, WIDEST},
+};
 
 /// Tension per width T(S) [gf/cm] against strain S = (L − b)/b [-].
 #[derive(Clone, Debug, PartialEq)]
@@ -76,6 +79,46 @@ impl Tension {
     /// Tangent modulus per width [gf/cm] at a strain, as in [`answer`](Self::answer).
     pub fn tangent(&self, strain: f64, floor: f64) -> f64 {
         self.answer(strain, floor).tangent
+    }
+
+    /// Tension and tangent [gf/cm] at strains side by side, as in [`answer`](Self::answer).
+    #[inline(always)]
+    pub(crate) fn answers<S: Simd>(
+        &self,
+        strain: Lanes<S>,
+        floor: Lanes<S>,
+    ) -> (Lanes<S>, Lanes<S>) {
+        let simd = strain.kind();
+        let size = strain.abs();
+        let (modulus, growth) = match self {
+            Self::Power { a, b } => (size.power(*b) * *a, b + 1.0),
+            Self::Linear { modulus } => (Lanes::of(simd, *modulus), 1.0),
+            Self::Points(_) => return self.answers_one_by_one(strain, floor),
+        };
+        let (tension, tangent) = (modulus * size, modulus * growth);
+        let zero = Lanes::of(simd, 0.0);
+        let borne = tension.less_than(floor).choose(tangent, zero);
+        let shortened = strain.less_than(zero);
+        (
+            shortened.choose(-tension.min(floor), tension),
+            shortened.choose(borne, tangent),
+        )
+    }
+
+    #[inline(never)]
+    fn answers_one_by_one<S: Simd>(
+        &self,
+        strain: Lanes<S>,
+        floor: Lanes<S>,
+    ) -> (Lanes<S>, Lanes<S>) {
+        let (mut strains, mut floors) = ([0.0; WIDEST], [0.0; WIDEST]);
+        strain.write(&mut strains);
+        floor.write(&mut floors);
+        let answers = core::array::from_fn::<_, WIDEST, _>(|k| self.answer(strains[k], floors[k]));
+        (
+            Lanes::read(strain.kind(), &answers.map(|answer| answer.tension)),
+            Lanes::read(strain.kind(), &answers.map(|answer| answer.tangent)),
+        )
     }
 
     /// The law itself, for S ≥ 0.

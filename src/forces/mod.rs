@@ -3,14 +3,18 @@
 //! One law, one file: [`RodLaw`] is tension (5); [`turn`] is bending (6) and shear (7).
 //! [`Sheet`] gathers them over a lattice: energy, forces, and the blocks of their derivatives.
 
+mod abreast;
 mod angle;
 mod paper;
 mod rod;
 mod sheet;
+mod stencil;
 
+pub(crate) use abreast::{Blocks, Stencils, StencilsFrom, pulls};
 pub use angle::{
     Turn, TurnStiffness, angle_between, turn, turn_stiffness, turn_stiffness_positive,
 };
 pub use paper::paper_forces;
 pub use rod::RodLaw;
 pub use sheet::{Clamp, Laws, Pull, Sheet};
+pub(crate) use stencil::{PLACES, Stencil};

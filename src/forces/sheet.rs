@@ -1,7 +1,7 @@
 //! The laws gathered over a lattice: a node's own pull for the sweeps, and whole-cloth sums.
 
 use super::{
-    RodLaw,
+    RodLaw, Stencil,
     angle::{turn, turn_stiffness, turn_stiffness_positive},
 };
 use crate::{
@@ -308,6 +308,56 @@ impl<'a> Sheet<'a> {
         }
     }
 
+    /// What acts on a node, by grid places of all nodes.
+    pub(crate) fn stencil(&self, node: usize, grid: &[[i32; 2]]) -> Stencil {
+        let mut stencil = Stencil::of_weight(self.weights[node]);
+        let way = |to: u32| {
+            let ([a, b], [c, d]) = (grid[node], grid[to as usize]);
+            [c - a, d - b]
+        };
+        for role in self.roles_of(node) {
+            match *role {
+                Role::Rod(index, end) => {
+                    let rod = &self.rods[index as usize];
+                    let other = rod.nodes[1 - usize::from(end)];
+                    stencil.add_rod(way(other), rod.rest, rod.width, rod.floor);
+                }
+                Role::Angle(index, _) => {
+                    let angle = &self.angles[index as usize];
+                    angle.add_to(&mut stencil, angle.nodes.map(way));
+                }
+                // A vice is not a matter of the grid.
+                Role::Clamp(_) => (),
+            }
+        }
+        stencil
+    }
+
+    /// The vices' part of the force on a node [gf] and of its own stiffness [gf/cm]; `None` where
+    /// there is none.
+    #[inline]
+    pub(crate) fn vice(&self, node: usize, at: &[Vec3]) -> Option<Pull> {
+        let mut pull: Option<Pull> = None;
+        // They stand last in a node's list.
+        for role in self.roles_of(node).iter().rev() {
+            let Role::Clamp(index) = *role else { break };
+            let sum = pull.get_or_insert(Pull {
+                force: Vec3::zeros(),
+                stiffness: Mat3::zeros(),
+            });
+            let clamp = &self.clamps[index as usize];
+            let along = clamp.along(at);
+            sum.force -= turn(&clamp.slope, &along, clamp.stiffness, 0.0).by_v;
+            sum.stiffness += turn_stiffness_positive(&clamp.slope, &along, clamp.stiffness, 0.0).vv;
+        }
+        pull
+    }
+
+    /// The fabric.
+    pub(crate) fn fabric(&self) -> &'a Fabric {
+        self.fabric
+    }
+
     /// The force on one node and its own stiffness: the terms of (8).
     #[must_use]
     pub fn pull(&self, node: usize, at: &[Vec3]) -> Pull {
@@ -465,6 +515,30 @@ impl SheetAngle {
 
     fn spread(&self, by_u: &Vec3, by_v: &Vec3) -> [Vec3; 3] {
         self.signs().map(|(u, v)| by_u * u + by_v * v)
+    }
+
+    /// Adds the angle to a node's stencil; `ways` lead from the node to the angle's nodes.
+    fn add_to(&self, stencil: &mut Stencil, ways: [[i32; 2]; 3]) {
+        let [first, middle, last] = ways;
+        if self.bend {
+            let yarn = if first[1] == last[1] {
+                Yarn::Warp
+            } else {
+                Yarn::Weft
+            };
+            stencil.add_bend(yarn, middle, self.stiffness, self.rest);
+            return;
+        }
+        // The corner's node, its neighbours along warp and weft: which of them is the node?
+        let sum = |a: [i32; 2], b: [i32; 2]| [a[0] + b[0], a[1] + b[1]];
+        let (quarter, place) = if first == [0, 0] {
+            (sum(middle, last), 0)
+        } else if middle == [0, 0] {
+            (last, 1)
+        } else {
+            (middle, 2)
+        };
+        stencil.add_corner(quarter, place, self.stiffness, self.rest);
     }
 
     /// Which of its nodes the angle belongs to.

@@ -15,14 +15,21 @@ use crate::{
 /// to a curved body.
 const SKIN_PRESSURE: f64 = 10.0;
 
+/// Depth of skin over which the force of a body grows e-fold, in pitches: in a skin that is thin for
+/// its lattice, cloth that falls a part of a pitch comes to lie hundreds of depths deep, and takes
+/// as many steps to come out.
+const SKIN: f64 = 0.01;
+/// The finest lattice shows how deep it lies: its skins end at these [cm].
+const THINNEST_SKIN: f64 = 0.004;
+const NODE_SKIN: f64 = 0.01;
+
 /// Solves a problem from the coarsest lattice to the finest.
 pub(super) fn descend(
     problem: &Problem,
     settings: &Settings,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Settled, Unsolvable> {
-    let surface = surface(problem);
-    let lattices = cuts(problem, &surface)?;
+    let lattices = cuts(problem, &surface(problem, problem.piece.pitch))?;
     let mut before: Option<(&Lattice, Vec<Vec3>)> = None;
     let mut work = Vec::new();
     let mut run = Run {
@@ -33,21 +40,18 @@ pub(super) fn descend(
         stopped: false,
     };
     for (number, lattice) in lattices.iter().enumerate() {
+        let last = number + 1 == lattices.len();
+        let pitch = if last {
+            problem.piece.pitch
+        } else {
+            lattice.pitch
+        };
+        let surface = surface(problem, pitch);
         let mut start = Start::new(problem, lattice)?;
         start
             .fall(problem, &surface, lattice)
             .ok_or(Unsolvable::Falls)?;
-        let last = number + 1 == lattices.len();
-        let case = Case {
-            lattice,
-            fabric: &problem.fabric,
-            laws: problem.laws,
-            own_only: problem.forces == ForceModel::Paper,
-            clamps: &start.clamps,
-            held: &start.held,
-            bodies: &problem.bodies,
-            surface,
-        };
+        let case = case_of(problem, lattice, &start, surface);
         let touches = Touches::new(lattice, surface);
         let mut level = Level::new(&case, touches, start.at.clone());
         if let Some((coarse, rest)) = &before {
@@ -79,13 +83,54 @@ pub(super) fn prepare(problem: &Problem) -> Result<Lattice, Unsolvable> {
     let lattice = problem.piece.cut(problem.piece.pitch)?;
     let mut start = Start::new(problem, &lattice)?;
     start.check(problem, &lattice)?;
-    let fallen = start.fall(problem, &surface(problem), &lattice);
+    let fallen = start.fall(problem, &surface(problem, lattice.pitch), &lattice);
     fallen.ok_or(Unsolvable::Falls)?;
     Ok(lattice)
 }
 
-fn surface(problem: &Problem) -> Surface {
+/// So many sweeps from the flat start.
+pub(super) fn sweeps(problem: &Problem, count: usize) -> Result<Vec<Vec3>, Unsolvable> {
+    let lattice = problem.piece.cut(problem.piece.pitch)?;
+    let surface = surface(problem, problem.piece.pitch);
+    let mut start = Start::new(problem, &lattice)?;
+    let fallen = start.fall(problem, &surface, &lattice);
+    fallen.ok_or(Unsolvable::Falls)?;
+    let case = case_of(problem, &lattice, &start, surface);
+    let mut level = Level::new(&case, Touches::new(&lattice, surface), start.at.clone());
+    start.disturb(&mut level.at, &lattice, problem);
+    level.look(lattice.pitch, lattice.pitch);
+    for _ in 0..count {
+        level.sweep();
+    }
+    Ok(level.at)
+}
+
+/// One lattice of a problem, as the certificate sees it.
+fn case_of<'a>(
+    problem: &'a Problem,
+    lattice: &'a Lattice,
+    start: &'a Start,
+    surface: Surface,
+) -> Case<'a> {
+    Case {
+        lattice,
+        fabric: &problem.fabric,
+        laws: problem.laws,
+        own_only: problem.forces == ForceModel::Paper,
+        clamps: &start.clamps,
+        held: &start.held,
+        bodies: &problem.bodies,
+        surface,
+    }
+}
+
+/// The bodies' surface as a cloth of this pitch [cm] meets it.
+fn surface(problem: &Problem, pitch: f64) -> Surface {
+    let skin = (SKIN * pitch).max(THINNEST_SKIN);
+    let finest = pitch <= problem.piece.pitch;
     Surface {
+        node_skin: if finest { skin.min(NODE_SKIN) } else { skin },
+        sample_skin: if finest { THINNEST_SKIN } else { skin },
         friction: problem.friction,
         offset: 0.5 * problem.thickness,
         pressure: SKIN_PRESSURE * problem.fabric.weight,

@@ -23,14 +23,14 @@ use crate::math::{Mat3, Vec3};
 /// A node moves at most this part of a pitch in a joint step.
 const LONGEST_MOVE: f64 = 0.8;
 /// A step that asks for less than this part of a pitch is short.
-const NEAR: f64 = 0.1;
+const NEAR: f64 = 0.5;
 /// Most steps of a finish, and the move [cm] that ends it.
 const FINISHING: usize = 6;
 const FINISHED: f64 = 1e-7;
 /// Corrections after a joint step: each costs a tenth of the factors.
 const CORRECTIONS: usize = 3;
 /// Damping times pitch is never below this.
-const LEAST_DAMPING: f64 = 0.01;
+const LEAST_DAMPING: f64 = 0.001;
 /// A node is restless when it asks for more than this part of the longest move.
 const RESTLESS: f64 = 0.1;
 /// Visits to restless nodes cost as much as so many sweeps over all, and are no more than so many.

@@ -4,6 +4,7 @@ use super::{
     dissection::{Neighbours, dissect},
     factor::Plan,
     stiffness::Stiffness,
+    stream::Stream,
 };
 use crate::{
     body::Bodies, certificate::Case, contact::Touches, forces::Sheet, lattice::Lattice, math::Vec3,
@@ -25,6 +26,10 @@ pub(super) struct Level<'a> {
     pub(super) at: Vec<Vec3>,
     /// Whether a node feels only its own ten forces.
     pub(super) own_only: bool,
+    /// The nodes in the order of sweeps, from the first sweep on.
+    pub(super) stream: Option<Box<Stream>>,
+    /// Which nodes a vice acts on.
+    pub(super) vices: Vec<bool>,
     pub(super) sweeps: usize,
     pub(super) joint_steps: usize,
     /// Updates of single nodes.
@@ -47,6 +52,8 @@ impl<'a> Level<'a> {
                 .collect(),
             at,
             own_only: case.own_only,
+            stream: None,
+            vices: vices(case),
             sweeps: 0,
             joint_steps: 0,
             updates: 0,
@@ -122,6 +129,14 @@ impl<'a> Level<'a> {
             stopped(self.bodies, from, to)
         }
     }
+}
+
+fn vices(case: &Case<'_>) -> Vec<bool> {
+    let mut vices = vec![false; case.held.len()];
+    for clamp in case.clamps {
+        vices[clamp.nodes[1] as usize] = true;
+    }
+    vices
 }
 
 /// Where a straight move ends: before the first surface in its way.

@@ -6,6 +6,7 @@ mod descent;
 mod dissection;
 mod factor;
 mod film;
+mod inertia;
 mod joint;
 mod level;
 mod model;
@@ -13,6 +14,7 @@ mod patch;
 mod rest;
 mod start;
 mod stiffness;
+mod stream;
 mod substitution;
 mod sweep;
 
@@ -231,4 +233,13 @@ pub fn settle(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Settled, Unsolvable> {
     descent::descend(problem, settings, watch)
+}
+
+/// The shape [cm] that so many sweeps alone, without joint steps and coarse cuts, take the flat
+/// cloth to: to measure the sweeps by.
+///
+/// # Errors
+/// [`Unsolvable`], as [`settle`].
+pub fn sweeps(problem: &Problem, count: usize) -> Result<Vec<Vec3>, Unsolvable> {
+    descent::sweeps(problem, count)
 }

@@ -3,6 +3,7 @@
 use super::{
     Progress, Settings,
     film::Film,
+    inertia::{BETWEEN, FIRST, FIRST_ON_FINEST},
     joint::{Joint, Step},
     level::Level,
     patch::CALM,
@@ -50,7 +51,7 @@ pub(super) struct Run<'w> {
 }
 
 /// How a level stands after a round.
-struct Standing {
+pub(super) struct Standing {
     /// Longest move of the last joint step [cm].
     made: f64,
     /// Estimate of the farthest node's way to rest [cm]; infinite where the shape is not known to
@@ -85,10 +86,16 @@ impl Run<'_> {
         if number == 0 {
             self.carry_holds(level, &mut joint, start, &standing);
             level.touches.rub(LANDING_GRIP * case.surface.friction);
+        } else {
+            let most = if last { FIRST_ON_FINEST } else { FIRST };
+            joint.near = self.glide(level, number, &standing, most);
         }
         for round in 0.. {
             if !self.goes_on(level, number, &standing) {
                 break;
+            }
+            if number > 0 && round > 0 && !joint.near {
+                joint.near = self.glide(level, number, &standing, BETWEEN);
             }
             let Some(step) = joint.round(level, standing.made) else {
                 break;
@@ -149,7 +156,12 @@ impl Run<'_> {
     }
 
     /// Asks the watcher, and films.
-    fn goes_on(&mut self, level: &Level<'_>, number: usize, standing: &Standing) -> bool {
+    pub(super) fn goes_on(
+        &mut self,
+        level: &Level<'_>,
+        number: usize,
+        standing: &Standing,
+    ) -> bool {
         let progress = Progress {
             level: (number, self.levels),
             nodes: level.at.len(),

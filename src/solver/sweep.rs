@@ -17,10 +17,13 @@ const LONGEST_MOVE: f64 = 0.25;
 impl Level<'_> {
     /// One sweep over all colours. Returns the longest move [cm].
     pub(super) fn sweep(&mut self) -> f64 {
+        self.sweeps += 1;
+        if !self.own_only {
+            return self.stream_sweep();
+        }
         let colours = core::mem::take(&mut self.colours);
         let longest = self.sweep_over(&colours);
         self.colours = colours;
-        self.sweeps += 1;
         longest
     }
 

@@ -91,7 +91,7 @@ impl Belt {
                 RADIUS - 0.5 * THICKNESS,
                 self.friction
             ),
-            400,
+            2000,
         );
         let at = &rest.positions;
         let top = (0..at.len()).max_by(|a, b| at[*a].z.total_cmp(&at[*b].z));

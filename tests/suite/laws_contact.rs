@@ -147,6 +147,8 @@ fn pressed(lattice: &Lattice, at: &[Vec3], slip: &Vec3) -> (Touches, Vec<Vec3>) 
         friction: 0.3,
         offset: 0.025,
         pressure: 0.14,
+        node_skin: 0.004,
+        sample_skin: 0.004,
     };
     let on_ball = |at: &Vec3| {
         let height = 10.0 + at.z;

@@ -1,0 +1,125 @@
+//! A node and all that acts on it, as numbers in a fixed order: so that nodes with the same
+//! surroundings share one list, and nodes side by side read theirs by one index.
+//!
+//! A node's laws reach two steps along each yarn and one step diagonally:
+//! ```text
+//!             7
+//!        10   3   9          0 the node; 1, 2 east (along the warp), west; 3, 4 north
+//!     6   2   0   1   5      (along the weft), south; 5 to 8 two steps; 9 to 12 diagonal
+//!        11   4   12
+//!             8
+//! ```
+
+use crate::fabric::Yarn;
+
+/// Where the thirteen points are, in steps along (warp, weft).
+pub(crate) const PLACES: [[i32; 2]; 13] = [
+    [0, 0],
+    [1, 0],
+    [-1, 0],
+    [0, 1],
+    [0, -1],
+    [2, 0],
+    [-2, 0],
+    [0, 2],
+    [0, -2],
+    [1, 1],
+    [-1, 1],
+    [-1, -1],
+    [1, -1],
+];
+
+/// Whether the node moves (1 or 0).
+pub(super) const MOVES: usize = 0;
+/// Its weight [gf].
+pub(super) const WEIGHT: usize = 1;
+/// Whether no bend has an angle at rest, and every corner a right one (1 or 0).
+pub(super) const ON_GRAIN: usize = 2;
+/// Four rods, to points 1 to 4: 1/rest length [1/cm], width [cm], greatest compression [gf/cm].
+pub(super) const RODS: usize = 3;
+/// Six bends: of the node along warp and weft, then about points 1 to 4: stiffness [gf·cm], angle
+/// at rest [rad].
+pub(super) const BENDS: usize = RODS + 12;
+/// For each of the four quarters, NE, NW, SW, SE: the node's own corner, that of the neighbour along
+/// the warp, that of the neighbour along the weft: stiffness [gf·cm], angle at rest [rad].
+pub(super) const CORNERS: usize = BENDS + 12;
+/// How many numbers there are.
+pub(super) const SIZE: usize = CORNERS + 24;
+
+/// The numbers of one node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Stencil(pub(super) [f64; SIZE]);
+
+impl Stencil {
+    /// Of a place without a node, or of one that is held: nothing acts, nothing moves.
+    pub(crate) const STILL: Self = {
+        let mut numbers = [0.0; SIZE];
+        numbers[WEIGHT] = 1.0;
+        Self(numbers)
+    };
+
+    /// Of a node that only weight [gf] acts on.
+    pub(super) fn of_weight(weight: f64) -> Self {
+        let mut stencil = Self::STILL;
+        stencil.0[MOVES] = 1.0;
+        stencil.0[WEIGHT] = weight;
+        stencil.0[ON_GRAIN] = 1.0;
+        stencil
+    }
+
+    /// Its numbers as bits, to find equal ones by.
+    pub(crate) fn bits(&self) -> [u64; SIZE] {
+        self.0.map(f64::to_bits)
+    }
+
+    /// Adds a rod towards a neighbour.
+    pub(super) fn add_rod(&mut self, way: [i32; 2], rest: f64, width: f64, floor: f64) {
+        let at = RODS + 3 * direction(way);
+        self.0[at..at + 3].copy_from_slice(&[1.0 / rest, width, floor]);
+    }
+
+    /// Adds a bend: of the node itself, or about the neighbour `way` from it.
+    pub(super) fn add_bend(&mut self, yarn: Yarn, way: [i32; 2], stiffness: f64, rest: f64) {
+        let place = match way {
+            [0, 0] => yarn as usize,
+            _ => 2 + direction(way),
+        };
+        let at = BENDS + 2 * place;
+        if rest != 0.0 {
+            self.0[ON_GRAIN] = 0.0;
+        }
+        self.0[at..at + 2].copy_from_slice(&[stiffness, rest]);
+    }
+
+    /// Adds a corner in the quarter towards `quarter`: the node's own (place 0), or that of the
+    /// neighbour along warp (1) or weft (2).
+    pub(super) fn add_corner(
+        &mut self,
+        quarter: [i32; 2],
+        place: usize,
+        stiffness: f64,
+        rest: f64,
+    ) {
+        let quarter = match (quarter[0] > 0, quarter[1] > 0) {
+            (true, true) => 0,
+            (false, true) => 1,
+            (false, false) => 2,
+            (true, false) => 3,
+        };
+        let at = CORNERS + 6 * quarter + 2 * place;
+        if rest != core::f64::consts::FRAC_PI_2 {
+            self.0[ON_GRAIN] = 0.0;
+        }
+        self.0[at..at + 2].copy_from_slice(&[stiffness, rest]);
+    }
+}
+
+/// East, west, north, south.
+fn direction([along, across]: [i32; 2]) -> usize {
+    match (along.signum(), across.signum()) {
+        (1, _) => 0,
+        (-1, _) => 1,
+        (_, 1) => 2,
+        _ => 3,
+    }
+}
