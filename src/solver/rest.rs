@@ -32,7 +32,7 @@ const PATIENCE: usize = 8;
 const ACQUAINTED: usize = 3;
 /// While the cloth lands, friction is so many times as strong: the forces of a cloth far from rest
 /// are not those that it will rest under, and would drag it along by chance. It has landed when a
-/// step asks for less than this part of a pitch.
+/// free step asks for less than this part of a pitch.
 const LANDING_GRIP: f64 = 10.0;
 const LANDED: f64 = 0.2;
 /// Sweeps between two looks at the residual where there are no joint steps.
@@ -101,7 +101,7 @@ impl Run<'_> {
                 break;
             };
             standing.count(&step, level.lattice.pitch);
-            if step.asked < LANDED * level.lattice.pitch {
+            if step.free && step.asked < LANDED * level.lattice.pitch {
                 level.touches.rub(case.surface.friction);
             }
             if step.asked > CALM * level.lattice.pitch {
