@@ -91,7 +91,7 @@ impl Belt {
                 RADIUS - 0.5 * THICKNESS,
                 self.friction
             ),
-            2000,
+            800,
         );
         let at = &rest.positions;
         let top = (0..at.len()).max_by(|a, b| at[*a].z.total_cmp(&at[*b].z));
