@@ -4,7 +4,7 @@
 //! does: none is fused with another, none adds up lanes. So a result has the same bits whether one,
 //! four or eight numbers are taken at once.
 
-use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+use core::ops::{Add, AddAssign, Mul, Neg, Sub};
 #[cfg(test)]
 pub(crate) use pulp::Scalar as OneByOne;
 pub(crate) use pulp::{Simd, WithSimd};
@@ -284,13 +284,6 @@ impl<S: Simd> AddAssign for Points<S> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
-    }
-}
-
-impl<S: Simd> SubAssign for Points<S> {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
     }
 }
 

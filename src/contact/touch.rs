@@ -79,16 +79,6 @@ impl Touch {
             normal * slope + self.friction.stiffness(&slip, &self.normal),
         ))
     }
-
-    /// Stiffness of the site at `here` [gf/cm]; `None` where nothing touches.
-    pub(super) fn stiffness(&self, here: &Vec3) -> Option<Mat3> {
-        let (_, load, slope) = self.skin.answer(self.top - self.normal.dot(here));
-        if load == 0.0 && self.friction.limit == 0.0 {
-            return None;
-        }
-        let normal = self.normal * self.normal.transpose();
-        Some(normal * slope + self.friction.stiffness(&self.slip(here), &self.normal))
-    }
 }
 
 #[cfg(test)]

@@ -384,7 +384,7 @@ impl Touches {
     pub fn stiffness(&self, at: &[Vec3], add: &mut dyn FnMut(u32, u32, &Mat3)) {
         let blocks = threads::map(self.touches.len(), |k| {
             let touch = &self.touches[k];
-            touch.stiffness(&touch.site.at(at))
+            touch.answer(&touch.site.at(at)).map(|(_, block)| block)
         });
         for (touch, block) in self.touches.iter().zip(blocks) {
             let Some(block) = block else { continue };

@@ -5,15 +5,18 @@
 
 mod abreast;
 mod angle;
+mod blocks;
+mod elements;
 mod paper;
 mod rod;
 mod sheet;
 mod stencil;
 
-pub(crate) use abreast::{Blocks, Stencils, StencilsFrom, pulls};
+pub(crate) use abreast::{Stencils, StencilsFrom, pulls};
 pub use angle::{
     Turn, TurnStiffness, angle_between, turn, turn_stiffness, turn_stiffness_positive,
 };
+pub(crate) use blocks::Blocks;
 pub use paper::paper_forces;
 pub use rod::RodLaw;
 pub use sheet::{Clamp, Laws, Pull, Sheet};

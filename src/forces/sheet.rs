@@ -3,6 +3,7 @@
 use super::{
     RodLaw, Stencil,
     angle::{turn, turn_stiffness, turn_stiffness_positive},
+    elements::{SheetAngle, SheetClamp, SheetRod},
 };
 use crate::{
     fabric::{Fabric, Yarn},
@@ -46,34 +47,6 @@ pub struct Clamp {
     pub length: f64,
     /// Width of cloth that it stands for [cm].
     pub width: f64,
-}
-
-/// A rod by the numbers of its ends.
-#[derive(Clone, Copy, Debug)]
-struct SheetRod {
-    nodes: [u32; 2],
-    yarn: Yarn,
-    rest: f64,
-    width: f64,
-    floor: f64,
-}
-
-/// An angle between the rods `from → to` of two pairs of nodes.
-#[derive(Clone, Copy, Debug)]
-struct SheetAngle {
-    nodes: [u32; 3],
-    stiffness: f64,
-    rest: f64,
-    /// A bend has its node in the middle of the path; a corner has it first.
-    bend: bool,
-}
-
-/// A clamp joint with its stiffness [gf·cm].
-#[derive(Clone, Copy, Debug)]
-struct SheetClamp {
-    nodes: [u32; 2],
-    slope: Vec3,
-    stiffness: f64,
 }
 
 /// Where a node appears in an element, and as which of its nodes.
@@ -476,80 +449,6 @@ impl<'a> Sheet<'a> {
         }
         self.first_role = first;
         self.roles = named.into_iter().map(|(_, role)| role).collect();
-    }
-}
-
-impl SheetRod {
-    fn along(&self, at: &[Vec3]) -> Vec3 {
-        self.along_by(&|node| at[node as usize])
-    }
-
-    fn along_by(&self, get: &impl Fn(u32) -> Vec3) -> Vec3 {
-        get(self.nodes[1]) - get(self.nodes[0])
-    }
-}
-
-impl SheetAngle {
-    /// The two rods: before and after a bend's node; from a corner's node.
-    fn rods(&self, at: &[Vec3]) -> (Vec3, Vec3) {
-        self.rods_by(&|node| at[node as usize])
-    }
-
-    fn rods_by(&self, get: &impl Fn(u32) -> Vec3) -> (Vec3, Vec3) {
-        let [a, b, c] = self.nodes.map(get);
-        if self.bend {
-            (b - a, c - b)
-        } else {
-            (b - a, c - a)
-        }
-    }
-
-    /// How u and v change with each of the three nodes.
-    fn signs(&self) -> [(f64, f64); 3] {
-        if self.bend {
-            [(-1.0, 0.0), (1.0, -1.0), (0.0, 1.0)]
-        } else {
-            [(-1.0, -1.0), (1.0, 0.0), (0.0, 1.0)]
-        }
-    }
-
-    fn spread(&self, by_u: &Vec3, by_v: &Vec3) -> [Vec3; 3] {
-        self.signs().map(|(u, v)| by_u * u + by_v * v)
-    }
-
-    /// Adds the angle to a node's stencil; `ways` lead from the node to the angle's nodes.
-    fn add_to(&self, stencil: &mut Stencil, ways: [[i32; 2]; 3]) {
-        let [first, middle, last] = ways;
-        if self.bend {
-            let yarn = if first[1] == last[1] {
-                Yarn::Warp
-            } else {
-                Yarn::Weft
-            };
-            stencil.add_bend(yarn, middle, self.stiffness, self.rest);
-            return;
-        }
-        // The corner's node, its neighbours along warp and weft: which of them is the node?
-        let sum = |a: [i32; 2], b: [i32; 2]| [a[0] + b[0], a[1] + b[1]];
-        let (quarter, place) = if first == [0, 0] {
-            (sum(middle, last), 0)
-        } else if middle == [0, 0] {
-            (last, 1)
-        } else {
-            (middle, 2)
-        };
-        stencil.add_corner(quarter, place, self.stiffness, self.rest);
-    }
-
-    /// Which of its nodes the angle belongs to.
-    fn own_place(&self) -> u8 {
-        u8::from(self.bend)
-    }
-}
-
-impl SheetClamp {
-    fn along(&self, at: &[Vec3]) -> Vec3 {
-        at[self.nodes[1] as usize] - at[self.nodes[0] as usize]
     }
 }
 

@@ -29,7 +29,7 @@ pub(super) fn descend(
     settings: &Settings,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Settled, Unsolvable> {
-    let lattices = cuts(problem, &surface(problem, problem.piece.pitch))?;
+    let lattices = cuts(problem, &surface(problem))?;
     let mut before: Option<(&Lattice, Vec<Vec3>)> = None;
     let mut work = Vec::new();
     let mut run = Run {
@@ -41,12 +41,11 @@ pub(super) fn descend(
     };
     for (number, lattice) in lattices.iter().enumerate() {
         let last = number + 1 == lattices.len();
-        let pitch = if last {
-            problem.piece.pitch
+        let surface = if last {
+            surface(problem)
         } else {
-            lattice.pitch
+            coarse_surface(problem, lattice.pitch)
         };
-        let surface = surface(problem, pitch);
         let mut start = Start::new(problem, lattice)?;
         start
             .fall(problem, &surface, lattice)
@@ -83,7 +82,7 @@ pub(super) fn prepare(problem: &Problem) -> Result<Lattice, Unsolvable> {
     let lattice = problem.piece.cut(problem.piece.pitch)?;
     let mut start = Start::new(problem, &lattice)?;
     start.check(problem, &lattice)?;
-    let fallen = start.fall(problem, &surface(problem, lattice.pitch), &lattice);
+    let fallen = start.fall(problem, &surface(problem), &lattice);
     fallen.ok_or(Unsolvable::Falls)?;
     Ok(lattice)
 }
@@ -91,7 +90,7 @@ pub(super) fn prepare(problem: &Problem) -> Result<Lattice, Unsolvable> {
 /// So many sweeps from the flat start.
 pub(super) fn sweeps(problem: &Problem, count: usize) -> Result<Vec<Vec3>, Unsolvable> {
     let lattice = problem.piece.cut(problem.piece.pitch)?;
-    let surface = surface(problem, problem.piece.pitch);
+    let surface = surface(problem);
     let mut start = Start::new(problem, &lattice)?;
     let fallen = start.fall(problem, &surface, &lattice);
     fallen.ok_or(Unsolvable::Falls)?;
@@ -124,17 +123,28 @@ fn case_of<'a>(
     }
 }
 
-/// The bodies' surface as a cloth of this pitch [cm] meets it.
-fn surface(problem: &Problem, pitch: f64) -> Surface {
-    let skin = (SKIN * pitch).max(THINNEST_SKIN);
-    let finest = pitch <= problem.piece.pitch;
+/// The bodies' surface as the finest cloth meets it.
+fn surface(problem: &Problem) -> Surface {
     Surface {
-        node_skin: if finest { skin.min(NODE_SKIN) } else { skin },
-        sample_skin: if finest { THINNEST_SKIN } else { skin },
+        node_skin: skin(problem.piece.pitch).min(NODE_SKIN),
+        sample_skin: THINNEST_SKIN,
         friction: problem.friction,
         offset: 0.5 * problem.thickness,
         pressure: SKIN_PRESSURE * problem.fabric.weight,
     }
+}
+
+/// The same as a coarser cut of this pitch [cm] meets it.
+fn coarse_surface(problem: &Problem, pitch: f64) -> Surface {
+    Surface {
+        node_skin: skin(pitch),
+        sample_skin: skin(pitch),
+        ..surface(problem)
+    }
+}
+
+fn skin(pitch: f64) -> f64 {
+    (SKIN * pitch).max(THINNEST_SKIN)
 }
 
 /// The lattices from coarse to fine. Cuts that would fall apart when coarse, or miss a hold or the

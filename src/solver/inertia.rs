@@ -47,8 +47,7 @@ impl Run<'_> {
                 level.look(way, way);
                 fastest = 0.0;
             }
-            let from = core::mem::take(&mut level.at);
-            level.at.clone_from(&from);
+            let from = level.at.clone();
             let inertia = run as f64 / (run as f64 + 3.0);
             if run > 0 {
                 level.at = level.freely(|node| {

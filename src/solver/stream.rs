@@ -6,7 +6,7 @@
 //! too, moved by at most one place. Rows and lists have margins, so no index needs a check; places
 //! without a node have the stencil of one that is still.
 
-use super::level::Level;
+use super::{level::Level, sweep::LONGEST_MOVE};
 use crate::{
     forces::{Blocks, PLACES, Sheet, Stencil, Stencils, StencilsFrom, pulls},
     lanes::{Lanes, Points, Simd, WIDEST, WithSimd, widest},
@@ -21,9 +21,6 @@ const COLOURS: usize = 5;
 const MARGIN: usize = 2;
 /// No node stands there.
 const NONE: u32 = u32::MAX;
-/// A node moves at most this part of a pitch at a visit: farther, its neighbours' places mean
-/// nothing.
-const LONGEST_MOVE: f64 = 0.25;
 /// A move longer than this part of a pitch is checked against the force where it ends.
 const CHECKED: f64 = 1e-4;
 /// A move may end where it is pulled back by this part of the pull that began it.

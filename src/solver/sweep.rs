@@ -12,7 +12,7 @@ use crate::{
 
 /// A node moves at most this part of a pitch at a visit: farther, its neighbours' places mean
 /// nothing.
-const LONGEST_MOVE: f64 = 0.25;
+pub(super) const LONGEST_MOVE: f64 = 0.25;
 
 impl Level<'_> {
     /// One sweep over all colours. Returns the longest move [cm].

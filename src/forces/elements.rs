@@ -1,0 +1,106 @@
+//! What a sheet is made of, by the numbers of its nodes: rods, angles between rods, vices.
+
+use super::Stencil;
+use crate::{fabric::Yarn, math::Vec3};
+
+/// A rod by the numbers of its ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SheetRod {
+    pub(super) nodes: [u32; 2],
+    pub(super) yarn: Yarn,
+    pub(super) rest: f64,
+    pub(super) width: f64,
+    pub(super) floor: f64,
+}
+
+/// An angle between the rods `from → to` of two pairs of nodes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SheetAngle {
+    pub(super) nodes: [u32; 3],
+    pub(super) stiffness: f64,
+    pub(super) rest: f64,
+    /// A bend has its node in the middle of the path; a corner has it first.
+    pub(super) bend: bool,
+}
+
+/// A clamp joint with its stiffness [gf·cm].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SheetClamp {
+    pub(super) nodes: [u32; 2],
+    pub(super) slope: Vec3,
+    pub(super) stiffness: f64,
+}
+
+impl SheetRod {
+    pub(super) fn along(&self, at: &[Vec3]) -> Vec3 {
+        self.along_by(&|node| at[node as usize])
+    }
+
+    pub(super) fn along_by(&self, get: &impl Fn(u32) -> Vec3) -> Vec3 {
+        get(self.nodes[1]) - get(self.nodes[0])
+    }
+}
+
+impl SheetAngle {
+    /// The two rods: before and after a bend's node; from a corner's node.
+    pub(super) fn rods(&self, at: &[Vec3]) -> (Vec3, Vec3) {
+        self.rods_by(&|node| at[node as usize])
+    }
+
+    pub(super) fn rods_by(&self, get: &impl Fn(u32) -> Vec3) -> (Vec3, Vec3) {
+        let [a, b, c] = self.nodes.map(get);
+        if self.bend {
+            (b - a, c - b)
+        } else {
+            (b - a, c - a)
+        }
+    }
+
+    /// How u and v change with each of the three nodes.
+    pub(super) fn signs(&self) -> [(f64, f64); 3] {
+        if self.bend {
+            [(-1.0, 0.0), (1.0, -1.0), (0.0, 1.0)]
+        } else {
+            [(-1.0, -1.0), (1.0, 0.0), (0.0, 1.0)]
+        }
+    }
+
+    pub(super) fn spread(&self, by_u: &Vec3, by_v: &Vec3) -> [Vec3; 3] {
+        self.signs().map(|(u, v)| by_u * u + by_v * v)
+    }
+
+    /// Adds the angle to a node's stencil; `ways` lead from the node to the angle's nodes.
+    pub(super) fn add_to(&self, stencil: &mut Stencil, ways: [[i32; 2]; 3]) {
+        let [first, middle, last] = ways;
+        if self.bend {
+            let yarn = if first[1] == last[1] {
+                Yarn::Warp
+            } else {
+                Yarn::Weft
+            };
+            stencil.add_bend(yarn, middle, self.stiffness, self.rest);
+            return;
+        }
+        // The corner's node, its neighbours along warp and weft: which of them is the node?
+        let sum = |a: [i32; 2], b: [i32; 2]| [a[0] + b[0], a[1] + b[1]];
+        let (quarter, place) = if first == [0, 0] {
+            (sum(middle, last), 0)
+        } else if middle == [0, 0] {
+            (last, 1)
+        } else {
+            (middle, 2)
+        };
+        stencil.add_corner(quarter, place, self.stiffness, self.rest);
+    }
+
+    /// Which of its nodes the angle belongs to.
+    pub(super) fn own_place(&self) -> u8 {
+        u8::from(self.bend)
+    }
+}
+
+impl SheetClamp {
+    pub(super) fn along(&self, at: &[Vec3]) -> Vec3 {
+        at[self.nodes[1] as usize] - at[self.nodes[0] as usize]
+    }
+}
