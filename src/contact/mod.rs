@@ -8,7 +8,6 @@
 
 mod deepest;
 mod law;
-mod patch;
 mod sites;
 mod touch;
 mod touches;

@@ -64,15 +64,15 @@ const FORGOTTEN: f64 = 0.05;
 #[derive(Clone, Debug)]
 pub struct Touches {
     sites: Sites,
-    pub(super) surface: Surface,
+    surface: Surface,
     pitch: f64,
-    pub(super) touches: Vec<Touch>,
+    touches: Vec<Touch>,
     /// For each node, its touches.
     of_node: Vec<Vec<u32>>,
     /// No part was nearer to a node than this [cm] when it stood there.
-    pub(super) clearance: Vec<(f64, Vec3)>,
+    clearance: Vec<(f64, Vec3)>,
     /// Where features meet each cell.
-    pub(super) places: Vec<Places>,
+    places: Vec<Places>,
 }
 
 type Places = [Option<[f64; 2]>; PLACES];
@@ -295,11 +295,11 @@ impl Touches {
     }
 
     /// Samples and remembered places of a cell.
-    pub(super) fn sites_of_cell(&self) -> usize {
+    fn sites_of_cell(&self) -> usize {
         self.sites.samples() + PLACES
     }
 
-    pub(super) fn list_by_node(&mut self, is_listed: impl Fn(usize) -> bool) {
+    fn list_by_node(&mut self, is_listed: impl Fn(usize) -> bool) {
         for list in &mut self.of_node {
             list.clear();
         }

@@ -15,7 +15,6 @@ mod grain;
 mod grid;
 mod locate;
 mod outline;
-mod patch;
 mod ring;
 #[cfg(test)]
 pub(crate) mod sample;
@@ -26,7 +25,6 @@ pub use cut::CutError;
 pub use fault::OutlineError;
 pub use locate::{Locator, Place};
 pub use outline::{Edge, Outline};
-pub use patch::Patch;
 
 use crate::{fabric::Yarn, math::Vec2};
 

@@ -111,11 +111,11 @@ impl Front {
 
 /// Where each of `some` stands in `all`, both in order of elimination.
 fn places(some: &[u32], all: &[u32], rank: &[u32]) -> Vec<u32> {
-    some.iter()
-        .map(|node| {
-            all.partition_point(|other| rank[*other as usize] < rank[*node as usize]) as u32
-        })
-        .collect()
+    some.iter().map(|node| place(*node, all, rank)).collect()
+}
+
+fn place(node: u32, all: &[u32], rank: &[u32]) -> u32 {
+    all.partition_point(|other| rank[*other as usize] < rank[node as usize]) as u32
 }
 
 impl Factor {
@@ -182,12 +182,16 @@ fn factor_halves(
 fn assemble(front: &Front, stiffness: &Stiffness, rank: &[u32], matrix: &mut [f64]) {
     let order = 3 * front.nodes.len();
     for (column, &node) in front.nodes[..front.own].iter().enumerate() {
-        let (others, blocks) = stiffness.row(node);
-        for (row, block) in places(others, &front.nodes, rank).into_iter().zip(blocks) {
+        let (others, blocks) = stiffness.row(node as usize);
+        for (other, block) in others.iter().zip(blocks) {
+            if rank[*other as usize] < rank[node as usize] {
+                continue;
+            }
+            let row = place(*other, &front.nodes, rank) as usize;
             for c in 0..3 {
                 for r in 0..3 {
                     // Blocks stand at (earlier, later); the lower half wants (later, earlier).
-                    matrix[(3 * column + c) * order + 3 * row as usize + r] += block[(c, r)];
+                    matrix[(3 * column + c) * order + 3 * row + r] += block[(c, r)];
                 }
             }
         }
@@ -219,7 +223,10 @@ fn border_of(matrix: &[f64], order: usize, own: usize) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::dissection::dissect, *};
+    use super::{
+        super::{dissection::dissect, stiffness::Pattern},
+        *,
+    };
     use crate::math::{Mat3, Vec2};
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
@@ -310,7 +317,9 @@ mod tests {
         }
 
         fn factor(&self) -> Option<Factor> {
-            let mut stiffness = Stiffness::new(&self.neighbours, &self.plan.rank);
+            let held: Vec<bool> = (0..self.nodes).map(|node| self.is_held(node)).collect();
+            let pattern = Pattern::new(&self.neighbours, &held);
+            let mut stiffness = Stiffness::new(pattern.into());
             for (row, column, block) in &self.blocks {
                 stiffness.add(*row, *column, block);
             }

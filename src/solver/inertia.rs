@@ -1,83 +1,198 @@
-//! Sweeps with inertia: each starts where the cloth would be if it went on as it went, so that what
-//! is far from rest travels a whole cloth in some hundred sweeps (Nesterov 1983).
+//! Steps with inertia, that bring a cloth near rest from afar: each starts where the cloth would be
+//! if it went on as it went (Nesterov 1983), and is
+//! 1. what a positive, damped stiffness, summed up on the coarser lattices, answers to the forces
+//!    there: what a sweep would take thousands of times to find,
+//! 2. a sweep, that brings each node to its own equilibrium.
 //!
 //! A cloth that has begun to climb is stopped and starts anew (O'Donoghue & Candès 2015).
 
 use super::{
+    joint::Joint,
+    leader::Leader,
     level::Level,
+    model::longest,
     rest::{Run, Standing},
 };
 use crate::{math::Vec3, threads};
 
-/// Sweeps between two looks at the bodies.
+/// Steps between two looks at the bodies and at the stiffness.
 const LOOKED_EVERY: usize = 10;
-/// Most sweeps before the first joint step of a level, of the finest, and between two of them.
-pub(super) const FIRST: usize = 300;
-pub(super) const FIRST_ON_FINEST: usize = 1500;
-pub(super) const BETWEEN: usize = 150;
-/// The cloth has settled when sweeps move no node by more than this part of a pitch.
-const SETTLED: f64 = 1e-4;
-/// Touches farther away than so many moves of the last sweep are not felt in the next.
+/// A node goes no farther in a step than this part of a pitch: a rod that turns by more is lengthened
+/// by more than cloth yields.
+const LONGEST_MOVE: f64 = 0.05;
+/// Of what the stiffness answers, this part is done: steps with inertia overshoot by a third at most
+/// (Nesterov's bound is 4/3 of the stiffness), and stiffness grows with strain.
+const PART: f64 = 0.7;
+/// The least damping [1/cm].
+const LEAST_DAMPING: f64 = 0.02;
+/// No node is in haste when none asks for more than this part of the longest move.
+const CALM: f64 = 0.2;
+/// Touches farther away than so many moves of the last step are not felt in the next.
 const AWAKE: f64 = 2.0;
-/// A sweep that moves a node by more than this part of a pitch goes on too fast.
-const TOO_FAST: f64 = 0.3;
+/// A stop after more steps than this, with no node in haste, is one near rest.
+const LONG_RUN: usize = 30;
 
-impl Run<'_> {
-    /// Brings a level nearer to rest by so many sweeps at most. Returns whether it has settled.
-    pub(super) fn glide(
-        &mut self,
-        level: &mut Level<'_>,
-        number: usize,
-        standing: &Standing,
-        most: usize,
-    ) -> bool {
-        let pitch = level.lattice.pitch;
-        let mut before = level.at.clone();
-        let mut run = 0;
-        let (mut fastest, mut last) = (pitch, pitch);
-        for sweep in 0..most {
-            if sweep % LOOKED_EVERY == 0 {
-                if fastest < SETTLED * pitch {
-                    return true;
-                }
-                if !self.goes_on(level, number, standing) {
-                    return false;
-                }
-                let way = (2.0 * LOOKED_EVERY as f64 * fastest).clamp(0.005 * pitch, 0.8 * pitch);
-                level.look(way, way);
-                fastest = 0.0;
-            }
-            let from = level.at.clone();
-            let inertia = run as f64 / (run as f64 + 3.0);
-            if run > 0 {
-                level.at = level.freely(|node| {
-                    // Friction takes up what goes on by itself.
-                    let part = if level.touches.rubs(node) {
-                        0.0
-                    } else {
-                        inertia
-                    };
-                    (from[node] - before[node]) * part
-                });
-            }
-            level.touches.wake(&level.at, AWAKE * last);
-            let begun = level.at.clone();
-            level.sweep();
-            let (longest, climbs) = judge(&from, &begun, &level.at);
-            run = if climbs || longest > TOO_FAST * pitch {
-                0
-            } else {
-                run + 1
-            };
-            fastest = f64::max(fastest, longest);
-            last = longest;
-            before = from;
+/// How a cloth goes on by itself.
+#[derive(Debug)]
+pub(super) struct Inertia {
+    /// Positions before the last step [cm].
+    before: Vec<Vec3>,
+    /// Steps since the last stop.
+    run: usize,
+    /// Longest ways of a step, since the last look and of the last step [cm].
+    fastest: f64,
+    last: f64,
+}
+
+impl Inertia {
+    /// Of a cloth that stands still.
+    pub(super) fn none(level: &Level<'_>) -> Self {
+        Self {
+            before: level.at.clone(),
+            run: 0,
+            fastest: level.lattice.pitch,
+            last: level.lattice.pitch,
         }
-        false
+    }
+
+    /// Takes a step back, and stops.
+    fn go_back(&mut self, level: &mut Level<'_>, to: Vec<Vec3>) {
+        self.before.clone_from(&to);
+        self.run = 0;
+        level.at = to;
+        level.touches.wake(&level.at, f64::INFINITY);
     }
 }
 
-/// The longest move of a sweep [cm], and whether the sweep itself went against what went before.
+/// Steps shorter than this part of a pitch are those of a cloth at rest.
+const STILL: f64 = 1e-6;
+
+impl Run<'_> {
+    /// Brings a level nearer to rest, until it comes to a stop or by so many steps.
+    pub(super) fn glide(
+        &mut self,
+        level: &mut Level<'_>,
+        joint: &mut Joint,
+        inertia: &mut Inertia,
+        number: usize,
+        standing: &Standing,
+        most: usize,
+    ) {
+        let pitch = level.lattice.pitch;
+        let cap = LONGEST_MOVE * pitch;
+        let mut energy = f64::INFINITY;
+        let mut leader = None;
+        for step in 0..most {
+            if step % LOOKED_EVERY == 0 {
+                if !self.goes_on(level, number, standing) {
+                    return;
+                }
+                let way =
+                    (2.0 * LOOKED_EVERY as f64 * inertia.fastest).clamp(0.005 * pitch, 0.8 * pitch);
+                level.look(way, way);
+                energy = f64::INFINITY;
+                inertia.fastest = 0.0;
+                leader = None;
+            }
+            if leader.is_none() {
+                leader = joint.leader(level);
+            }
+            let Some(leads) = &leader else { return };
+            let stride = level.stride(leads, inertia, cap);
+            inertia.fastest = f64::max(inertia.fastest, stride.made);
+            inertia.last = stride.made;
+            let calm = longest(&stride.asked) < CALM * cap;
+            // What moves so little by little need not be looked at each time.
+            let now = if calm {
+                f64::NEG_INFINITY
+            } else {
+                level.energy(&level.at)
+            };
+            if now > energy + 1e-12 * energy.abs().max(1.0) {
+                if inertia.run == 0 {
+                    joint.damp_all(pitch);
+                    leader = None;
+                }
+                inertia.go_back(level, stride.from);
+                continue;
+            }
+            energy = if calm { f64::INFINITY } else { now };
+            inertia.before = stride.from;
+            if damp(joint, &stride.asked, cap) {
+                leader = None;
+            }
+            let at_turn = stride.climbs && inertia.run > LONG_RUN && calm;
+            inertia.run = if stride.climbs { 0 } else { inertia.run + 1 };
+            if at_turn || stride.made < STILL * pitch {
+                return;
+            }
+        }
+    }
+}
+
+/// What a step with inertia came to.
+struct Stride {
+    /// Positions before it [cm].
+    from: Vec<Vec3>,
+    /// What the leading stiffness asked for [cm].
+    asked: Vec<Vec3>,
+    /// Longest move [cm].
+    made: f64,
+    /// Whether it went against what went before.
+    climbs: bool,
+}
+
+impl Level<'_> {
+    /// One step with inertia, no node led farther than `cap` [cm].
+    fn stride(&mut self, leader: &Leader, inertia: &Inertia, cap: f64) -> Stride {
+        let from = self.at.clone();
+        let run = inertia.run as f64;
+        if inertia.run > 0 {
+            self.at = self.freely(|node| {
+                // Friction takes up what goes on by itself.
+                let part = if self.touches.rubs(node) {
+                    0.0
+                } else {
+                    run / (run + 3.0)
+                };
+                (from[node] - inertia.before[node]) * part
+            });
+        }
+        self.touches.wake(&self.at, AWAKE * inertia.last);
+        let begun = self.at.clone();
+        let asked = leader.answer_smoothly(&self.quick_forces());
+        self.at = self.freely(|node| {
+            let way = asked[node] * PART;
+            way * (cap / way.norm().max(cap))
+        });
+        self.sweep();
+        let (made, climbs) = judge(&from, &begun, &self.at);
+        Stride {
+            from,
+            asked,
+            made,
+            climbs,
+        }
+    }
+}
+
+/// Damps nodes that asked for far more than they may go, and frees those that asked for little.
+/// Returns whether any was damped.
+fn damp(joint: &mut Joint, moves: &[Vec3], cap: f64) -> bool {
+    let mut damped = false;
+    for (damping, way) in joint.damping.iter_mut().zip(moves) {
+        let asked = way.norm() / cap;
+        if asked > 2.0 {
+            *damping = damping.max(0.1 / cap) * asked.clamp(1.5, 10.0);
+            damped = true;
+        } else if asked < 0.5 {
+            *damping = (*damping * 0.8).max(LEAST_DAMPING);
+        }
+    }
+    damped
+}
+
+/// The longest way of a step [cm], and whether the step itself went against what went before.
 fn judge(from: &[Vec3], begun: &[Vec3], to: &[Vec3]) -> (f64, bool) {
     let against = threads::sum(to.len(), |node| {
         (begun[node] - to[node]).dot(&(to[node] - from[node]))

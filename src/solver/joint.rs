@@ -1,48 +1,44 @@
-//! The joint step: system (8) written for all nodes at once, so that a move of the whole cloth
-//! that each node alone would take thousands of sweeps to feel is made in one.
+//! The joint step: system (8) written for all nodes at once, so that a cloth near rest comes there
+//! in a few steps, quadratically.
 //!
-//! 1. Two derivatives of all forces by all positions are assembled: the exact one, and one without
-//!    its negative directions, which is factored. Each node's weight, times a damping of its own,
-//!    is added to both.
-//! 2. The exact one is solved by conjugate gradients that the factors lead. Where nodes ask for far
-//!    more than is trusted, they are damped and it is solved again.
+//! 1. The derivative of all forces by all positions is assembled: the exact one, and one without
+//!    its negative directions, which leads.
+//! 2. The exact one is solved by conjugate gradients. Where it has a negative direction the shape is
+//!    not stable, and there is no step; nor where the step would be long.
 //! 3. The step is cut to the trusted length, and each node to the way that bodies leave free. It is
 //!    corrected for what turning has lengthened, and halved until the energy falls.
-//! 4. Nodes that asked for too much are damped more next time, others less: a flap that swings
-//!    does not hold the rest of the cloth back.
-//! 5. Near rest the exact derivative alone is factored; steps then converge quadratically.
+//! 4. A cloth that lands is far from rest: nodes that ask for more than is trusted are damped, and
+//!    the step is asked for again, so that a flap that swings does not hold the rest back.
 
 use super::{
-    factor::{Factor, Plan},
+    leader::{Leader, Way},
     level::Level,
-    model::{Model, longest},
-    stiffness::Stiffness,
+    model::{Answer, exact_answer, longest, near_answer},
+    stiffness::{Pattern, Stiffness},
 };
 use crate::math::{Mat3, Vec3};
+use std::sync::Arc;
 
 /// A node moves at most this part of a pitch in a joint step.
-const LONGEST_MOVE: f64 = 0.8;
+const LONGEST_MOVE: f64 = 0.4;
+/// Damping times pitch at first.
+const FIRST_DAMPING: f64 = 4.0;
+/// Damping times pitch is never below this in a damped step.
+const LEAST_DAMPING: f64 = 0.001;
+/// A node counts as damped where damping times pitch is above this.
+const DAMPED: f64 = 0.1;
+/// A damped step that asks for more than so many trusted lengths is asked for again, with the nodes
+/// that did damped: cut short as it is, it would bring the rest of the cloth nowhere.
+const TOO_FAR: f64 = 2.0;
+const ASKED_AGAIN: usize = 3;
 /// A step that asks for less than this part of a pitch is short.
 const NEAR: f64 = 0.5;
 /// Most steps of a finish, and the move [cm] that ends it.
 const FINISHING: usize = 6;
-const FINISHED: f64 = 1e-7;
-/// Corrections after a joint step: each costs a tenth of the factors.
+const FINISHED: f64 = 1e-5;
+/// Corrections after a joint step.
 const CORRECTIONS: usize = 3;
-/// Damping times pitch is never below this.
-const LEAST_DAMPING: f64 = 0.001;
-/// A node is restless when it asks for more than this part of the longest move.
-const RESTLESS: f64 = 0.1;
-/// Visits to restless nodes cost as much as so many sweeps over all, and are no more than so many.
-const RESTLESS_SWEEPS: usize = 3;
-const MOST_VISITS: usize = 60;
-/// A node counts as damped where damping times pitch is above this.
-const DAMPED: f64 = 0.1;
-/// A step that asks for more than so many trusted lengths is asked for again, with the nodes that
-/// did damped: cut short as it is, it would bring the rest of the cloth nowhere.
-const TOO_FAR: f64 = 2.0;
-const ASKED_AGAIN: usize = 3;
-/// All nodes are damped tenfold at most so often for a matrix that cannot be factored.
+/// All nodes are damped tenfold at most so often for a matrix that has no answer.
 const DAMPED_MORE: usize = 12;
 /// A step is halved at most so often.
 const HALVINGS: usize = 8;
@@ -50,19 +46,14 @@ const HALVINGS: usize = 8;
 /// The joint system and what was learnt of the steps it may ask for.
 #[derive(Debug)]
 pub(super) struct Joint {
-    plan: Plan,
-    exact: Stiffness,
-    positive: Stiffness,
-    /// Damping of each node: stiffness per weight [1/cm].
+    way: Way,
+    pattern: Arc<Pattern>,
+    /// Damping of each node in what leads: stiffness per weight [1/cm].
     pub(super) damping: Vec<f64>,
-    /// Nodes that asked for much in the last step, by colours.
-    pub(super) restless: Vec<Vec<u32>>,
     /// Length that steps are trusted to [cm].
     radius: f64,
     /// How far the level has looked for touches [cm]: no step is longer.
     pub(super) sight: f64,
-    /// Whether the last step was short: rest may be near, and the exact matrix is tried.
-    pub(super) near: bool,
 }
 
 /// What a joint step came to.
@@ -72,61 +63,42 @@ pub(super) struct Step {
     pub(super) asked: f64,
     /// Longest move made [cm].
     pub(super) made: f64,
-    /// Whether the exact, undamped matrix was positive definite: the shape is stable.
+    /// Whether it was taken by the exact, undamped stiffness, and that is positive definite: the
+    /// shape is stable.
     pub(super) exact: bool,
     /// Whether no more than one node in a hundred was damped, so that what was asked for is what
     /// the cloth wants.
     pub(super) free: bool,
 }
 
-/// Which derivative is meant.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Exact,
-    Damped,
-    PositiveDamped,
+impl Step {
+    /// Whether rest may be near.
+    pub(super) fn is_near(&self, pitch: f64) -> bool {
+        let moving = self.made > 0.0 || self.asked == 0.0;
+        self.free && self.asked < NEAR * pitch && moving
+    }
+
+    /// Whether the cloth wants to go less than this [cm].
+    pub(super) fn wants_less_than(&self, way: f64) -> bool {
+        self.free && self.asked < way
+    }
 }
 
 impl Joint {
     pub(super) fn new(level: &Level<'_>) -> Self {
-        let (plan, exact) = level.plan();
+        let (way, pattern) = Way::of(level);
         Self {
-            plan,
-            positive: exact.clone(),
-            exact,
-            damping: vec![4.0 / level.lattice.pitch; level.at.len()],
-            restless: Vec::new(),
+            way,
+            pattern,
+            damping: vec![FIRST_DAMPING / level.lattice.pitch; level.at.len()],
             radius: 0.2 * level.lattice.pitch,
             sight: 0.0,
-            near: false,
         }
     }
 
-    /// For a part of the cloth, that knows what was learnt of it.
-    pub(super) fn of_patch(&self, level: &Level<'_>, damping: Vec<f64>) -> Self {
-        Self {
-            damping,
-            radius: self.radius,
-            ..Self::new(level)
-        }
-    }
-
-    /// How often restless nodes are visited before the next step: few of them often, many seldom,
-    /// so that it costs as much as so many sweeps.
-    pub(super) fn visits(&self, level: &Level<'_>) -> usize {
-        let restless: usize = self.restless.iter().map(Vec::len).sum();
-        (RESTLESS_SWEEPS * level.at.len() / restless.max(1)).min(MOST_VISITS)
-    }
-
-    /// Assembles a derivative at the level's positions.
-    fn assemble(&mut self, level: &Level<'_>, kind: Kind) {
-        let positive = kind == Kind::PositiveDamped;
-        let matrix = if positive {
-            &mut self.positive
-        } else {
-            &mut self.exact
-        };
-        matrix.clear();
+    /// The derivative at the level's positions, exact or without its negative directions.
+    fn assemble(&self, level: &Level<'_>, positive: bool) -> Stiffness {
+        let mut matrix = Stiffness::new(Arc::clone(&self.pattern));
         let at = &level.at;
         level
             .sheet
@@ -136,42 +108,47 @@ impl Joint {
         level.touches.stiffness(at, &mut |row, column, block| {
             matrix.add(row, column, block);
         });
-        if kind == Kind::Exact {
-            return;
-        }
-        let weights = level.sheet.weights().iter().zip(&self.damping);
-        for (node, (weight, damping)) in weights.enumerate() {
-            let block = Mat3::identity() * (weight * damping);
-            matrix.add(node as u32, node as u32, &block);
-        }
+        matrix
     }
 
-    /// One step; the level has just looked at its touches. `None` where even the positive matrix
-    /// cannot be factored.
+    /// What leads: the damped positive matrix. Where rounding makes it indefinite, as crushed rods
+    /// may, all nodes are damped more; `None` where nothing helps.
+    pub(super) fn leader(&mut self, level: &Level<'_>) -> Option<Leader> {
+        let mut matrix = self.assemble(level, true);
+        let mut added = vec![0.0; self.damping.len()];
+        for _ in 0..DAMPED_MORE {
+            let weights = level.sheet.weights().iter().zip(&self.damping);
+            for (node, ((weight, damping), added)) in weights.zip(&mut added).enumerate() {
+                let more = weight * (damping - *added);
+                matrix.add(node as u32, node as u32, &(Mat3::identity() * more));
+                *added = *damping;
+            }
+            let leader = Leader::new(&self.way, &matrix);
+            if leader.is_some() {
+                return leader;
+            }
+            for damping in &mut self.damping {
+                *damping = 10.0 * damping.max(1e-3 / level.lattice.pitch);
+            }
+        }
+        None
+    }
+
+    /// One step; the level has just looked at its touches. `None` where the shape is not stable, or
+    /// rest is not near.
     pub(super) fn step(&mut self, level: &mut Level<'_>) -> Option<Step> {
         level.joint_steps += 1;
         let forces = level.forces(&level.at);
-        if self.near
-            && let Some(step) = self.exact_step(level, &forces)
-        {
-            return Some(step);
-        }
-        self.damped_step(level, &forces)
-    }
-
-    /// A step by the exact matrix, if it is positive definite and asks for little.
-    fn exact_step(&mut self, level: &mut Level<'_>, forces: &[Vec3]) -> Option<Step> {
-        self.near = false;
-        self.assemble(level, Kind::Exact);
-        let factor = Factor::new(&self.plan, &self.exact)?;
-        let moves = factor.solve(&self.plan, forces);
+        let leader = self.leader(level)?;
+        let exact = self.assemble(level, false);
+        let Answer::Moves(moves) = exact_answer(&leader, &exact, &forces) else {
+            return None;
+        };
         let asked = longest(&moves);
         if asked.is_nan() || asked >= NEAR * level.lattice.pitch {
             return None;
         }
-        let made = self.descend(level, &factor, &moves, &moves);
-        self.mark_restless(level, &moves, asked);
-        self.near = true;
+        let made = self.descend(level, &leader, &moves);
         Some(Step {
             asked,
             made,
@@ -180,32 +157,30 @@ impl Joint {
         })
     }
 
-    /// A step by the exact matrix with damping, led by factors of the positive one.
-    fn damped_step(&mut self, level: &mut Level<'_>, forces: &[Vec3]) -> Option<Step> {
-        let (mut factor, mut model) = self.ask(level, forces)?;
+    /// A step of a cloth that is far from rest: by the exact stiffness, damped where nodes ask for
+    /// more than is trusted. The level has just looked at its touches.
+    pub(super) fn damped_step(&mut self, level: &mut Level<'_>) -> Option<Step> {
+        level.joint_steps += 1;
+        let forces = level.forces(&level.at);
+        let (mut leader, mut moves) = self.ask_damped(level, &forces)?;
         for _ in 0..ASKED_AGAIN {
-            if longest(&model.moves) <= TOO_FAR * self.radius {
+            if longest(&moves) <= TOO_FAR * self.radius {
                 break;
             }
-            self.damp(&model.moves);
-            (factor, model) = self.ask(level, forces)?;
+            self.damp(&moves);
+            (leader, moves) = self.ask_damped(level, &forces)?;
         }
-        let asked = longest(&model.moves);
+        let asked = longest(&moves);
         let made = if asked.is_finite() {
-            self.descend(level, &factor, &model.moves, &model.first)
+            self.descend(level, &leader, &moves)
         } else {
             0.0
         };
-        let damped = self
-            .damping
-            .iter()
-            .filter(|damping| **damping > DAMPED / level.lattice.pitch);
+        let pitch = level.lattice.pitch;
+        let damped = self.damping.iter().filter(|one| **one > DAMPED / pitch);
         let free = 100 * damped.count() <= level.at.len();
-        self.damp(&model.moves);
-        self.free(level.lattice.pitch, &model.moves);
-        self.mark_restless(level, &model.moves, asked);
-        let still = made > 0.0 || asked == 0.0;
-        self.near = free && asked < NEAR * level.lattice.pitch && still;
+        self.damp(&moves);
+        self.free(pitch, &moves);
         Some(Step {
             asked,
             made,
@@ -214,35 +189,24 @@ impl Joint {
         })
     }
 
-    fn mark_restless(&mut self, level: &Level<'_>, moves: &[Vec3], asked: f64) {
-        let restless = |node: &u32| moves[*node as usize].norm() > RESTLESS * asked;
-        let of_colour = |nodes: &Vec<u32>| nodes.iter().copied().filter(restless).collect();
-        self.restless = level.colours.iter().map(of_colour).collect();
-    }
-
-    /// What the damped model asks for, and the factors that led to it.
-    fn ask(&mut self, level: &Level<'_>, forces: &[Vec3]) -> Option<(Factor, Model)> {
-        let factor = self.positive_factor(level)?;
-        self.assemble(level, Kind::Damped);
-        let far = 4.0 * self.radius;
-        let model = Model::new(&self.plan, &factor, &self.exact, forces, far);
-        Some((factor, model))
-    }
-
-    /// Factors of the positive matrix; where rounding makes it indefinite, as crushed rods may, all
-    /// nodes are damped more.
-    fn positive_factor(&mut self, level: &Level<'_>) -> Option<Factor> {
-        for _ in 0..DAMPED_MORE {
-            self.assemble(level, Kind::PositiveDamped);
-            let factor = Factor::new(&self.plan, &self.positive);
-            if factor.is_some() {
-                return factor;
-            }
-            for damping in &mut self.damping {
-                *damping *= 10.0;
-            }
+    fn ask_damped(&mut self, level: &Level<'_>, forces: &[Vec3]) -> Option<(Leader, Vec<Vec3>)> {
+        let leader = self.leader(level)?;
+        let mut damped = self.assemble(level, false);
+        let weights = level.sheet.weights().iter().zip(&self.damping);
+        for (node, (weight, damping)) in weights.enumerate() {
+            let block = Mat3::identity() * (weight * damping);
+            damped.add(node as u32, node as u32, &block);
         }
-        None
+        let far = 4.0 * self.radius;
+        let moves = near_answer(&leader, &damped, forces, far);
+        Some((leader, moves))
+    }
+
+    /// Damps all nodes, where even a step without inertia was too long.
+    pub(super) fn damp_all(&mut self, pitch: f64) {
+        for damping in &mut self.damping {
+            *damping = (4.0 * *damping).max(DAMPED / pitch);
+        }
     }
 
     /// Damps nodes that asked for more than is trusted.
@@ -264,34 +228,38 @@ impl Joint {
         }
     }
 
+    /// A direction in which the energy falls from a shape without forces, in moves [cm] of any
+    /// length; `None` where the shape is stable.
+    pub(super) fn way_out(&mut self, level: &Level<'_>) -> Option<Vec<Vec3>> {
+        let leader = self.leader(level)?;
+        let exact = self.assemble(level, false);
+        match exact_answer(&leader, &exact, &level.any_forces()) {
+            Answer::Moves(_) => None,
+            Answer::WayOut(way) => Some(way),
+        }
+    }
+
     /// Steps on with the touches as they were last seen, where nothing but smooth laws is left and
     /// steps converge quadratically.
     pub(super) fn finish(&mut self, level: &mut Level<'_>) {
         for _ in 0..FINISHING {
             match self.step(level) {
-                Some(step) if step.exact && step.asked > FINISHED => (),
+                Some(step) if step.asked > FINISHED => (),
                 _ => break,
             }
         }
     }
 
     /// Halves the step until the energy falls, and learns how far steps can be trusted. Returns the
-    /// longest move made [cm], 0 where none lowers the energy. `first` is what the factors alone
-    /// answer to the forces here.
-    fn descend(
-        &mut self,
-        level: &mut Level<'_>,
-        factor: &Factor,
-        moves: &[Vec3],
-        first: &[Vec3],
-    ) -> f64 {
+    /// longest move made [cm], 0 where none lowers the energy.
+    fn descend(&mut self, level: &mut Level<'_>, leader: &Leader, moves: &[Vec3]) -> f64 {
         let before = level.energy(&level.at);
         let noise = 1e-12 * before.abs().max(1.0);
         let longest_move = LONGEST_MOVE * level.lattice.pitch;
         let asked = longest(moves).max(1e-300);
         let mut part = (self.sight.min(2.0 * self.radius) / asked).min(1.0);
         for halvings in 0..HALVINGS {
-            let to = self.corrected(level, factor, moves, first, part);
+            let to = corrected(level, leader, moves, part);
             if level.energy(&to) <= before + noise {
                 let ways = to.iter().zip(&level.at).map(|(to, at)| (to - at).norm());
                 let made = ways.fold(0.0, f64::max);
@@ -299,7 +267,7 @@ impl Joint {
                 if halvings > 0 {
                     self.radius *= 0.7;
                 } else if asked * part > 0.5 * self.radius {
-                    self.radius = (1.3 * self.radius).min(0.5 * longest_move);
+                    self.radius = (1.3 * self.radius).min(longest_move);
                 }
                 self.radius = self.radius.max(1e-3 * longest_move);
                 return made;
@@ -309,30 +277,24 @@ impl Joint {
         self.radius = (0.3 * self.radius).max(1e-3 * longest_move);
         0.0
     }
+}
 
-    /// A part of the step, and after it what the same factors say of the forces that turning has
-    /// raised: rods that a straight move lengthened come back to their length.
-    fn corrected(
-        &self,
-        level: &Level<'_>,
-        factor: &Factor,
-        moves: &[Vec3],
-        first: &[Vec3],
-        part: f64,
-    ) -> Vec<Vec3> {
-        let mut to = level.freely(|node| moves[node] * part);
-        let mut energy = level.energy(&to);
-        for _ in 0..CORRECTIONS {
-            let answer = factor.solve(&self.plan, &level.forces(&to));
-            let way =
-                |node: usize| to[node] - level.at[node] + answer[node] - first[node] * (1.0 - part);
-            let next = level.freely(way);
-            let lower = level.energy(&next);
-            if lower.is_nan() || lower >= energy {
-                break;
-            }
-            (to, energy) = (next, lower);
+/// A part of the step, and after it what leads says of the forces that turning has raised: rods that
+/// a straight move lengthened come back to their length.
+fn corrected(level: &Level<'_>, leader: &Leader, moves: &[Vec3], part: f64) -> Vec<Vec3> {
+    let mut to = level.freely(|node| moves[node] * part);
+    let mut energy = level.energy(&to);
+    let first = leader.answer(&level.forces(&level.at));
+    for _ in 0..CORRECTIONS {
+        let answer = leader.answer(&level.forces(&to));
+        let way =
+            |node: usize| to[node] - level.at[node] + answer[node] - first[node] * (1.0 - part);
+        let next = level.freely(way);
+        let lower = level.energy(&next);
+        if lower.is_nan() || lower >= energy {
+            break;
         }
-        to
+        (to, energy) = (next, lower);
     }
+    to
 }

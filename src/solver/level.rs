@@ -1,11 +1,6 @@
 //! One lattice on its way to rest: what the sweeps and the joint steps both work on.
 
-use super::{
-    dissection::{Neighbours, dissect},
-    factor::Plan,
-    stiffness::Stiffness,
-    stream::Stream,
-};
+use super::{start::mix, stream::Stream};
 use crate::{
     body::Bodies, certificate::Case, contact::Touches, forces::Sheet, lattice::Lattice, math::Vec3,
     threads,
@@ -60,27 +55,6 @@ impl<'a> Level<'a> {
         }
     }
 
-    /// The joint system's order of elimination and empty matrix.
-    pub(super) fn plan(&self) -> (Plan, Stiffness) {
-        let nodes = self.at.len();
-        let mut pairs = self.sheet.joined();
-        for cell in &self.lattice.cells {
-            for (k, a) in cell.iter().enumerate() {
-                pairs.extend(cell[k + 1..].iter().map(|b| [*a.min(b), *a.max(b)]));
-            }
-        }
-        pairs.sort_unstable();
-        pairs.dedup();
-        let neighbours = Neighbours::new(nodes, &pairs);
-        let free = (0..nodes as u32)
-            .filter(|node| !self.held[*node as usize])
-            .collect();
-        let parts = dissect(free, &self.lattice.coordinates, &neighbours);
-        let plan = Plan::new(parts, &neighbours, nodes);
-        let stiffness = Stiffness::new(&neighbours, &plan.rank);
-        (plan, stiffness)
-    }
-
     /// Energy of cloth, weight and touches [gf·cm].
     pub(super) fn energy(&self, at: &[Vec3]) -> f64 {
         self.sheet.energy(at) + self.touches.energy(at)
@@ -96,6 +70,25 @@ impl<'a> Level<'a> {
             }
         }
         forces
+    }
+
+    /// Forces that have a part in every move of the whole: those of no law, by the nodes' numbers
+    /// [gf].
+    pub(super) fn any_forces(&self) -> Vec<Vec3> {
+        let any = |node: usize, axis: usize| {
+            let mixed = mix(3 * node as u64 + axis as u64);
+            (mixed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        let weights = self.sheet.weights();
+        (0..self.at.len())
+            .map(|node| {
+                if self.held[node] {
+                    Vec3::zeros()
+                } else {
+                    Vec3::from_fn(|axis, _| any(node, axis)) * weights[node]
+                }
+            })
+            .collect()
     }
 
     /// Looks again where bodies are near and how hard they press; moves up to `way` [cm] follow.

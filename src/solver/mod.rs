@@ -8,15 +8,17 @@ mod factor;
 mod film;
 mod inertia;
 mod joint;
+mod leader;
 mod level;
 mod model;
-mod patch;
+mod multigrid;
 mod rest;
 mod start;
 mod stiffness;
 mod stream;
 mod substitution;
 mod sweep;
+mod visit;
 
 use crate::{
     body::Bodies,

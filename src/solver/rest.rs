@@ -3,10 +3,10 @@
 use super::{
     Progress, Settings,
     film::Film,
-    inertia::{BETWEEN, FIRST, FIRST_ON_FINEST},
+    inertia::Inertia,
     joint::{Joint, Step},
     level::Level,
-    patch::CALM,
+    model::longest,
     start::Start,
 };
 use crate::{
@@ -14,11 +14,14 @@ use crate::{
     math::Vec3,
 };
 
-/// Sweeps before each joint step: they settle what is near, it settles what is far.
-const SWEEPS: usize = 4;
-/// A coarse level is left when free steps ask for less than this part of its pitch.
+/// Steps with inertia before the first joint step is tried, and by how much more each time.
+const FIRST_TRY: usize = 60;
+const LATER_TRIES: f64 = 1.5;
+/// A coarse level is left when a joint step asks for less than this part of its pitch.
 const COARSE_ENOUGH: f64 = 0.05;
-/// Most rounds on a coarse level: its task is a start for the next.
+/// Most sweeps on a coarse level: its task is a start for the next.
+const COARSE_SWEEPS: usize = 300;
+/// Most rounds on a coarse level.
 const COARSE_ROUNDS: usize = 150;
 /// A drape with less than this to go [cm] at a tolerance of 1e-3 is where it will be.
 const SETTLED: f64 = 1e-3;
@@ -35,6 +38,13 @@ const ACQUAINTED: usize = 3;
 /// free step asks for less than this part of a pitch.
 const LANDING_GRIP: f64 = 10.0;
 const LANDED: f64 = 0.2;
+/// Sweeps before each step of a landing: they settle what is near, it settles what is far.
+const SWEEPS: usize = 4;
+/// Holds are carried so far at a time, in pitches, with so many steps to follow them.
+const CARRIED: f64 = 0.1;
+const CARRYING: usize = 10;
+/// A shape that is not stable is moved on by this part of a pitch.
+const KICK: f64 = 0.02;
 /// Sweeps between two looks at the residual where there are no joint steps.
 const PLAIN_SWEEPS: usize = 20;
 /// No estimate of the way to rest is below this [cm]: the laws of contact are looked at anew only
@@ -54,6 +64,8 @@ pub(super) struct Run<'w> {
 pub(super) struct Standing {
     /// Longest move of the last joint step [cm].
     made: f64,
+    /// Whether the last round said that rest is near.
+    near: bool,
     /// Estimate of the farthest node's way to rest [cm]; infinite where the shape is not known to
     /// be stable.
     remaining: f64,
@@ -80,78 +92,81 @@ impl Run<'_> {
         if level.own_only {
             return self.rest_by_sweeps(level, case, number);
         }
-        let mut joint = Joint::new(level);
         let last = number + 1 == self.levels;
+        let mut joint = Joint::new(level);
         let mut standing = Standing::new(level);
-        if number == 0 {
-            self.carry_holds(level, &mut joint, start, &standing);
+        let mut inertia = Inertia::none(level);
+        let lands = number == 0;
+        if lands {
+            self.carry_holds(level, start, &standing);
             level.touches.rub(LANDING_GRIP * case.surface.friction);
-        } else {
-            let most = if last { FIRST_ON_FINEST } else { FIRST };
-            joint.near = self.glide(level, number, &standing, most);
         }
+        let mut patience = FIRST_TRY as f64;
         for round in 0.. {
             if !self.goes_on(level, number, &standing) {
                 break;
             }
-            if number > 0 && round > 0 && !joint.near {
-                joint.near = self.glide(level, number, &standing, BETWEEN);
+            if !standing.near && !lands {
+                let most = patience as usize;
+                self.glide(level, &mut joint, &mut inertia, number, &standing, most);
+                patience *= LATER_TRIES;
             }
-            let Some(step) = joint.round(level, standing.made) else {
-                break;
-            };
-            standing.count(&step, level.lattice.pitch);
-            if step.free && step.asked < LANDED * level.lattice.pitch {
+            let mut step = None;
+            if standing.near || !lands {
+                step = joint.round(level, standing.made);
+            }
+            if step.is_some() {
+                inertia = Inertia::none(level);
+            } else if lands {
+                step = joint.land(level, standing.made);
+            }
+            let pitch = level.lattice.pitch;
+            standing.count(step.as_ref(), pitch);
+            let wants_less = |way: f64| step.is_some_and(|step: Step| step.wants_less_than(way));
+            if lands && wants_less(LANDED * pitch) {
                 level.touches.rub(case.surface.friction);
             }
-            if step.asked > CALM * level.lattice.pitch {
-                joint.settle_patches(level, case);
-            }
-            if last {
-                if standing.settled_for > 1 {
-                    joint.finish(level);
-                }
-                standing.go_to(&level.at, &step);
-                if self.is_settled(level, case, &mut standing, round) {
-                    break;
-                }
-            } else if step.free && step.asked < COARSE_ENOUGH * level.lattice.pitch
-                || round > COARSE_ROUNDS
-            {
+            let worn = level.sweeps > COARSE_SWEEPS && !lands || round > COARSE_ROUNDS;
+            if !last && (wants_less(COARSE_ENOUGH * pitch) || worn) {
                 break;
+            }
+            let Some(step) = step else { continue };
+            if !last {
+                continue;
+            }
+            if standing.settled_for > 1 {
+                joint.finish(level);
+            }
+            standing.go_to(&level.at, &step);
+            if self.is_settled(level, case, &mut standing, round) {
+                let Some(way) = joint.way_out(level) else {
+                    break;
+                };
+                level.kick(&way, KICK);
+                standing.near = false;
             }
         }
         standing.remaining
     }
 
     /// Carries the holds to where they belong, a part of a pitch at a time.
-    fn carry_holds(
-        &mut self,
-        level: &mut Level<'_>,
-        joint: &mut Joint,
-        start: &Start,
-        standing: &Standing,
-    ) {
+    fn carry_holds(&mut self, level: &mut Level<'_>, start: &Start, standing: &Standing) {
         let way = start
             .carry
             .iter()
             .map(|(_, carry)| carry.norm())
             .fold(0.0, f64::max);
-        let steps = (way / (0.4 * level.lattice.pitch)).ceil() as usize;
+        let mut joint = Joint::new(level);
+        let steps = (way / (CARRIED * level.lattice.pitch)).ceil() as usize;
         for _ in 0..steps {
-            if !self.goes_on(level, 0, standing) {
+            if self.stopped {
                 break;
             }
             for (node, carry) in &start.carry {
                 level.at[*node as usize] += carry / steps as f64;
             }
-            level.look(level.lattice.pitch, 0.1);
-            for _ in 0..SWEEPS {
-                level.sweep();
-            }
-            level.look(level.lattice.pitch, level.lattice.pitch);
-            joint.sight = level.lattice.pitch;
-            joint.step(level);
+            let mut inertia = Inertia::none(level);
+            self.glide(level, &mut joint, &mut inertia, 0, standing, CARRYING);
         }
     }
 
@@ -235,6 +250,7 @@ impl Standing {
     fn new(level: &Level<'_>) -> Self {
         Self {
             made: level.lattice.pitch,
+            near: false,
             remaining: f64::INFINITY,
             residual: f64::INFINITY,
             settled_for: 0,
@@ -244,9 +260,10 @@ impl Standing {
         }
     }
 
-    fn count(&mut self, step: &Step, pitch: f64) {
-        self.made = step.made;
-        let short = step.exact && step.asked < COARSE_ENOUGH * pitch;
+    fn count(&mut self, step: Option<&Step>, pitch: f64) {
+        self.near = step.is_some_and(|step| step.is_near(pitch));
+        self.made = step.map_or(pitch, |step| step.made);
+        let short = step.is_some_and(|step| step.exact && step.asked < COARSE_ENOUGH * pitch);
         self.settled_for = if short { self.settled_for + 1 } else { 0 };
     }
 
@@ -281,22 +298,35 @@ impl Standing {
 }
 
 impl Joint {
-    /// Sweeps, unless rest is near, then a joint step.
-    pub(super) fn round(&mut self, level: &mut Level<'_>, made: f64) -> Option<Step> {
+    /// Looks for bodies as far as a step may go after one of `made` [cm].
+    fn look(&mut self, level: &mut Level<'_>, made: f64) {
         let way = 0.8 * level.lattice.pitch;
         self.sight = (3.0 * made).clamp(0.02 * level.lattice.pitch, way);
-        let sample_way = self.sight;
-        level.look(way, sample_way);
-        if !self.near {
-            for _ in 0..SWEEPS {
-                level.sweep();
-                level.touches.look_at_loads(&level.at);
-            }
-            for _ in 0..self.visits(level) {
-                level.sweep_over(&self.restless);
-            }
-            level.look(way, sample_way);
+        level.look(way, self.sight);
+    }
+
+    /// A step of a cloth that comes down, after sweeps that feel how bodies press.
+    fn land(&mut self, level: &mut Level<'_>, made: f64) -> Option<Step> {
+        self.look(level, made);
+        for _ in 0..SWEEPS {
+            level.sweep();
+            level.touches.look_at_loads(&level.at);
         }
+        self.look(level, made);
+        self.damped_step(level)
+    }
+
+    /// A joint step with what bodies are near.
+    fn round(&mut self, level: &mut Level<'_>, made: f64) -> Option<Step> {
+        self.look(level, made);
         self.step(level)
+    }
+}
+
+impl Level<'_> {
+    /// Moves the cloth along a way, the farthest node by so many pitches.
+    fn kick(&mut self, way: &[Vec3], pitches: f64) {
+        let part = pitches * self.lattice.pitch / longest(way);
+        self.at = self.freely(|node| way[node] * part);
     }
 }

@@ -172,7 +172,7 @@ fn inside(problem: &Problem, at: &Vec3, depth: f64) -> Unsolvable {
 }
 
 /// A step of the splitmix64 generator (Steele, Lea & Flood 2014).
-fn mix(seed: u64) -> u64 {
+pub(super) fn mix(seed: u64) -> u64 {
     let mut z = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);

@@ -1,89 +1,135 @@
 //! The joint system's matrix: 3×3 blocks between nodes that share a force [gf/cm].
 
 use super::dissection::Neighbours;
-use crate::math::{Mat3, Vec3};
+use crate::{
+    math::{Mat3, Vec3},
+    threads,
+};
+use std::sync::Arc;
 
-/// Blocks of a symmetric matrix, each pair once: in the row of the node that is eliminated first.
-#[derive(Clone, Debug)]
-pub(super) struct Stiffness {
+/// Which nodes have a block with which: found once for a lattice.
+#[derive(Debug)]
+pub(super) struct Pattern {
     first: Vec<u32>,
     columns: Vec<u32>,
-    blocks: Vec<Mat3>,
-    rank: Vec<u32>,
 }
 
-impl Stiffness {
-    /// An empty matrix for nodes of these ranks; a node of rank `u32::MAX` is held and left out.
-    pub(super) fn new(neighbours: &Neighbours, rank: &[u32]) -> Self {
+impl Pattern {
+    /// Of nodes that share a force; held nodes are left out.
+    pub(super) fn new(neighbours: &Neighbours, held: &[bool]) -> Self {
         let mut first = vec![0];
         let mut columns = Vec::new();
-        for node in 0..rank.len() as u32 {
-            let own = rank[node as usize];
-            if own != u32::MAX {
+        for node in 0..held.len() as u32 {
+            if !held[node as usize] {
                 let others = neighbours.of(node).iter().copied();
-                let later = |n: &u32| rank[*n as usize] > own && rank[*n as usize] != u32::MAX;
-                let mut row: Vec<u32> = others.filter(later).chain([node]).collect();
-                row.sort_unstable_by_key(|other| rank[*other as usize]);
+                let mut row: Vec<u32> = others
+                    .filter(|other| !held[*other as usize])
+                    .chain([node])
+                    .collect();
+                row.sort_unstable();
                 columns.append(&mut row);
             }
             first.push(columns.len() as u32);
         }
-        let blocks = vec![Mat3::zeros(); columns.len()];
+        Self { first, columns }
+    }
+
+    /// Nodes, held ones too.
+    pub(super) fn len(&self) -> usize {
+        self.first.len() - 1
+    }
+
+    /// The nodes that a node has blocks with, itself among them, in rising order; none of a held
+    /// node.
+    pub(super) fn row(&self, node: usize) -> &[u32] {
+        &self.columns[self.range(node)]
+    }
+
+    fn range(&self, node: usize) -> core::ops::Range<usize> {
+        self.first[node] as usize..self.first[node + 1] as usize
+    }
+
+    fn place(&self, row: u32, column: u32) -> Option<usize> {
+        let columns = self.row(row as usize);
+        let place = columns.iter().position(|other| *other == column)?;
+        Some(self.first[row as usize] as usize + place)
+    }
+}
+
+/// Blocks of a symmetric matrix, all of each row.
+#[derive(Clone, Debug)]
+pub(super) struct Stiffness {
+    pattern: Arc<Pattern>,
+    blocks: Vec<Mat3>,
+}
+
+impl Stiffness {
+    /// An empty matrix.
+    pub(super) fn new(pattern: Arc<Pattern>) -> Self {
         Self {
-            first,
-            columns,
-            blocks,
-            rank: rank.to_vec(),
+            blocks: vec![Mat3::zeros(); pattern.columns.len()],
+            pattern,
         }
     }
 
-    /// All blocks to zero.
-    pub(super) fn clear(&mut self) {
-        self.blocks.fill(Mat3::zeros());
+    /// A matrix of rows that are found one by one: `fill(row, blocks)` writes those of a row.
+    pub(super) fn of_rows(
+        pattern: Arc<Pattern>,
+        fill: impl Fn(usize, &mut [Mat3]) + Sync + Send,
+    ) -> Self {
+        let rows = threads::map(pattern.len(), |row| {
+            let mut blocks = vec![Mat3::zeros(); pattern.row(row).len()];
+            fill(row, &mut blocks);
+            blocks
+        });
+        Self {
+            blocks: rows.concat(),
+            pattern,
+        }
+    }
+
+    /// Nodes, held ones too.
+    pub(super) fn len(&self) -> usize {
+        self.pattern.len()
     }
 
     /// Adds a block at (row, column), and so its transpose at (column, row); held nodes and pairs
     /// that were not announced are passed over.
     pub(super) fn add(&mut self, row: u32, column: u32, block: &Mat3) {
-        let (row_rank, column_rank) = (self.rank[row as usize], self.rank[column as usize]);
-        if row_rank == u32::MAX || column_rank == u32::MAX {
-            return;
+        if let Some(place) = self.pattern.place(row, column) {
+            self.blocks[place] += block;
         }
-        let turned = row_rank > column_rank;
-        let (row, column) = if turned { (column, row) } else { (row, column) };
-        let start = self.first[row as usize] as usize;
-        let columns = &self.columns[start..self.first[row as usize + 1] as usize];
-        if let Some(place) = columns.iter().position(|other| *other == column) {
-            let target = &mut self.blocks[start + place];
-            if turned {
-                *target += block.transpose();
-            } else {
-                *target += block;
-            }
+        if row != column
+            && let Some(place) = self.pattern.place(column, row)
+        {
+            self.blocks[place] += block.transpose();
         }
+    }
+
+    /// The nodes that a node is joined with, itself among them, and the blocks.
+    pub(super) fn row(&self, node: usize) -> (&[u32], &[Mat3]) {
+        let blocks = &self.blocks[self.pattern.range(node)];
+        (self.pattern.row(node), blocks)
+    }
+
+    /// A node's own block; `None` of a held node.
+    pub(super) fn diagonal(&self, node: usize) -> Option<&Mat3> {
+        let place = self.pattern.place(node as u32, node as u32)?;
+        Some(&self.blocks[place])
+    }
+
+    /// One row of the matrix times moves [gf].
+    pub(super) fn row_times(&self, node: usize, moves: &[Vec3]) -> Vec3 {
+        let (columns, blocks) = self.row(node);
+        let mut sum = Vec3::zeros();
+        for (column, block) in columns.iter().zip(blocks) {
+            sum += block * moves[*column as usize];
+        }
+        sum
     }
 
     /// The matrix times moves: the forces that answer them [gf].
     pub(super) fn times(&self, moves: &[Vec3]) -> Vec<Vec3> {
-        let mut forces = vec![Vec3::zeros(); moves.len()];
-        for row in 0..moves.len() {
-            let range = self.first[row] as usize..self.first[row + 1] as usize;
-            let mut sum = Vec3::zeros();
-            for (column, block) in self.columns[range.clone()].iter().zip(&self.blocks[range]) {
-                let column = *column as usize;
-                sum += block * moves[column];
-                if column != row {
-                    forces[column] += block.tr_mul(&moves[row]);
-                }
-            }
-            forces[row] += sum;
-        }
-        forces
-    }
-
-    /// The later nodes that a node is joined with, itself first, and the blocks.
-    pub(super) fn row(&self, node: u32) -> (&[u32], &[Mat3]) {
-        let range = self.first[node as usize] as usize..self.first[node as usize + 1] as usize;
-        (&self.columns[range.clone()], &self.blocks[range])
+        threads::map(moves.len(), |node| self.row_times(node, moves))
     }
 }

@@ -115,28 +115,6 @@ proptest! {
             }
         }
     }
-
-    #[test]
-    fn a_patchs_touches_push_its_nodes_as_the_wholes_do_and_go_back_unchanged(
-        at in crumpled(&disc(3.0, 0.5), 0.05), across in -2.0..2.0f64,
-    ) {
-        let lattice = disc(3.0, 0.5);
-        let (mut touches, at) = pressed(&lattice, &at, &Vec3::new(0.003, 0.0, 0.0));
-        let chosen: Vec<bool> = lattice.coordinates.iter().map(|at| at.x < across).collect();
-        let patch = lattice.patch(&chosen);
-        let own = touches.of_patch(&patch);
-        let own_at: Vec<Vec3> = patch.nodes.iter().map(|node| at[*node as usize]).collect();
-        for (number, node) in patch.nodes.iter().enumerate() {
-            if chosen[*node as usize] {
-                let whole = touches.pull(*node as usize, &at);
-                prop_assert_eq!(own.pull(number, &own_at), whole);
-            }
-        }
-        let figures = |touches: &Touches| format!("{:?}", touches.list());
-        let before = figures(&touches);
-        touches.adopt(&own, &patch);
-        prop_assert_eq!(figures(&touches), before);
-    }
 }
 
 /// A disc laid into a ball's skin, friction loaded, then slipped.

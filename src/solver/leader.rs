@@ -1,0 +1,89 @@
+//! What leads the conjugate gradients of a joint step: the answer of a positive matrix, exact by its
+//! factors on a small lattice, near by multigrid on a large one.
+
+use super::{
+    dissection::{Neighbours, dissect},
+    factor::{Factor, Plan},
+    level::Level,
+    multigrid::{Levels, Multigrid},
+    stiffness::{Pattern, Stiffness},
+};
+use crate::math::Vec3;
+use std::sync::Arc;
+
+/// A lattice of more nodes than this is answered by multigrid: factors take n^1.5 operations.
+const FACTORED: usize = 1500;
+
+/// How a lattice is answered: found once.
+#[derive(Debug)]
+pub(super) enum Way {
+    /// By factors.
+    Factors(Arc<Plan>),
+    /// By multigrid.
+    Levels(Arc<Levels>),
+}
+
+impl Way {
+    /// For a level, and which blocks its matrix has.
+    pub(super) fn of(level: &Level<'_>) -> (Self, Arc<Pattern>) {
+        let nodes = level.at.len();
+        let mut pairs = level.sheet.joined();
+        for cell in &level.lattice.cells {
+            for (k, a) in cell.iter().enumerate() {
+                pairs.extend(cell[k + 1..].iter().map(|b| [*a.min(b), *a.max(b)]));
+            }
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        let neighbours = Neighbours::new(nodes, &pairs);
+        let pattern = Arc::new(Pattern::new(&neighbours, &level.held));
+        let way = if nodes > FACTORED {
+            Self::Levels(Levels::new(&level.lattice.grid, &pattern).into())
+        } else {
+            let free = (0..nodes as u32)
+                .filter(|node| !level.held[*node as usize])
+                .collect();
+            let parts = dissect(free, &level.lattice.coordinates, &neighbours);
+            Self::Factors(Plan::new(parts, &neighbours, nodes).into())
+        };
+        (way, pattern)
+    }
+}
+
+/// A positive matrix, ready to answer.
+#[derive(Debug)]
+pub(super) enum Leader {
+    /// By its factors.
+    Factors(Arc<Plan>, Factor),
+    /// By multigrid.
+    Levels(Arc<Levels>, Multigrid),
+}
+
+impl Leader {
+    /// Of a matrix; `None` where it is not positive definite.
+    pub(super) fn new(way: &Way, matrix: &Stiffness) -> Option<Self> {
+        Some(match way {
+            Way::Factors(plan) => Self::Factors(Arc::clone(plan), Factor::new(plan, matrix)?),
+            Way::Levels(levels) => {
+                Self::Levels(Arc::clone(levels), Multigrid::new(levels, matrix)?)
+            }
+        })
+    }
+
+    /// The moves [cm] that answer forces [gf], or nearly so; held nodes stay.
+    pub(super) fn answer(&self, forces: &[Vec3]) -> Vec<Vec3> {
+        match self {
+            Self::Factors(plan, factor) => factor.solve(plan, forces),
+            Self::Levels(levels, multigrid) => multigrid.answer(levels, forces),
+        }
+    }
+
+    /// What sweeps would take long to find of it: the whole of an exact answer, the smooth part of
+    /// one by multigrid.
+    pub(super) fn answer_smoothly(&self, forces: &[Vec3]) -> Vec<Vec3> {
+        match self {
+            Self::Factors(plan, factor) => factor.solve(plan, forces),
+            Self::Levels(levels, multigrid) => multigrid.answer_smoothly(levels, forces),
+        }
+    }
+}
