@@ -106,3 +106,72 @@ fn add(sum: &mut [Vec3], ways: &[Vec3], part: f64) {
 fn dot(a: &[Vec3], b: &[Vec3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        super::{
+            dissection::{Neighbours, dissect},
+            factor::Plan,
+            leader::Way,
+            stiffness::Pattern,
+        },
+        *,
+    };
+    use crate::math::{Mat3, Vec2};
+    use std::sync::Arc;
+
+    const NODES: u32 = 30;
+
+    /// A chain of nodes, each drawn to the next and by `ground` [gf/cm] to where it is.
+    fn chain(ground: f64) -> (Way, Stiffness) {
+        let pairs: Vec<[u32; 2]> = (1..NODES).map(|node| [node - 1, node]).collect();
+        let neighbours = Neighbours::new(NODES as usize, &pairs);
+        let pattern = Arc::new(Pattern::new(&neighbours, &[false; NODES as usize]));
+        let places: Vec<Vec2> = (0..NODES).map(|k| Vec2::new(f64::from(k), 0.0)).collect();
+        let parts = dissect((0..NODES).collect(), &places, &neighbours);
+        let plan = Plan::new(parts, &neighbours, NODES as usize);
+        let mut matrix = Stiffness::new(pattern);
+        let spring = Mat3::new(2.0, 0.5, 0.0, 0.5, 1.0, 0.0, 0.0, 0.0, 3.0);
+        for [a, b] in pairs {
+            matrix.add(a, a, &spring);
+            matrix.add(b, b, &spring);
+            matrix.add(a, b, &-spring);
+        }
+        for node in 0..NODES {
+            matrix.add(node, node, &(Mat3::identity() * ground));
+        }
+        (Way::Factors(Arc::new(plan)), matrix)
+    }
+
+    fn forces() -> Vec<Vec3> {
+        let force =
+            |node: u32| Vec3::from_fn(|axis, _| libm::sin(f64::from(3 * node) + axis as f64));
+        (0..NODES).map(force).collect()
+    }
+
+    #[test]
+    fn moves_answer_the_exact_stiffness_whatever_leads() {
+        let ((way, positive), (_, exact)) = (chain(2.0), chain(0.01));
+        let leader = Leader::new(&way, &positive).unwrap();
+        let Answer::Moves(moves) = exact_answer(&leader, &exact, &forces()) else {
+            panic!("it is positive");
+        };
+        for (push, force) in exact.times(&moves).iter().zip(forces()) {
+            assert!((push - force).norm() < 1e-3, "{push} {force}");
+        }
+    }
+
+    #[test]
+    fn a_negative_direction_is_found_and_is_one() {
+        let ((way, positive), (_, exact)) = (chain(1.0), chain(-0.02));
+        let leader = Leader::new(&way, &positive).unwrap();
+        let Answer::WayOut(out) = exact_answer(&leader, &exact, &forces()) else {
+            panic!("it is not positive");
+        };
+        assert!(dot(&out, &exact.times(&out)) < 0.0);
+        // Where steps are cut short anyway, what is asked for still goes downhill.
+        let moves = near_answer(&leader, &exact, &forces(), f64::INFINITY);
+        assert!(dot(&moves, &forces()) > 0.0);
+    }
+}
