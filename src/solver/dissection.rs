@@ -4,7 +4,6 @@
 //! right half part the two, so each half can be eliminated without the other and the parting
 //! strip last. A lattice of n nodes then fills some n·log n blocks (George 1973).
 
-use super::stiffness::Pattern;
 use crate::math::Vec2;
 
 /// Pieces of at most this many nodes are not halved: smaller fronts cost more in bookkeeping than
@@ -44,20 +43,6 @@ impl Neighbours {
             first,
             list: both.into_iter().map(|[_, other]| other).collect(),
         }
-    }
-
-    /// Those that have a block with each other.
-    pub(super) fn of_pattern(pattern: &Pattern) -> Self {
-        let pairs: Vec<[u32; 2]> = (0..pattern.len() as u32)
-            .flat_map(|node| {
-                let later = pattern
-                    .row(node as usize)
-                    .iter()
-                    .filter(move |n| **n > node);
-                later.map(move |other| [node, *other])
-            })
-            .collect();
-        Self::new(pattern.len(), &pairs)
     }
 
     /// The nodes that share a force with this one, in rising order.

@@ -21,7 +21,7 @@ use crate::{math::Vec3, threads};
 pub(super) struct Plan {
     root: Front,
     /// Place of each node in the order of elimination; `u32::MAX` for held ones.
-    pub(super) rank: Vec<u32>,
+    rank: Vec<u32>,
 }
 
 #[derive(Debug)]

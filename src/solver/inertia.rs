@@ -23,7 +23,10 @@ const LONGEST_MOVE: f64 = 0.05;
 /// Of what the stiffness answers, this part is done: steps with inertia overshoot by a third at most
 /// (Nesterov's bound is 4/3 of the stiffness), and stiffness grows with strain.
 const PART: f64 = 0.7;
-/// The least damping [1/cm].
+/// Nodes that ask for more than so many longest moves are damped; those that ask for little keep this
+/// part of their damping, and no less than so much [1/cm].
+const TOO_FAR: f64 = 2.0;
+const FREED: f64 = 0.8;
 const LEAST_DAMPING: f64 = 0.02;
 /// No node is in haste when none asks for more than this part of the longest move.
 const CALM: f64 = 0.2;
@@ -118,9 +121,10 @@ impl Run<'_> {
             }
             energy = if calm { f64::INFINITY } else { now };
             inertia.before = stride.from;
-            if damp(joint, &stride.asked, cap) {
+            if joint.damp(&stride.asked, cap, TOO_FAR) {
                 leader = None;
             }
+            joint.free(&stride.asked, cap, FREED, LEAST_DAMPING);
             let at_turn = stride.climbs && inertia.run > LONG_RUN && calm;
             inertia.run = if stride.climbs { 0 } else { inertia.run + 1 };
             if at_turn || stride.made < STILL * pitch {
@@ -174,22 +178,6 @@ impl Level<'_> {
             climbs,
         }
     }
-}
-
-/// Damps nodes that asked for far more than they may go, and frees those that asked for little.
-/// Returns whether any was damped.
-fn damp(joint: &mut Joint, moves: &[Vec3], cap: f64) -> bool {
-    let mut damped = false;
-    for (damping, way) in joint.damping.iter_mut().zip(moves) {
-        let asked = way.norm() / cap;
-        if asked > 2.0 {
-            *damping = damping.max(0.1 / cap) * asked.clamp(1.5, 10.0);
-            damped = true;
-        } else if asked < 0.5 {
-            *damping = (*damping * 0.8).max(LEAST_DAMPING);
-        }
-    }
-    damped
 }
 
 /// The longest way of a step [cm], and whether the step itself went against what went before.

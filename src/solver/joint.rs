@@ -49,7 +49,7 @@ pub(super) struct Joint {
     way: Way,
     pattern: Arc<Pattern>,
     /// Damping of each node in what leads: stiffness per weight [1/cm].
-    pub(super) damping: Vec<f64>,
+    damping: Vec<f64>,
     /// Length that steps are trusted to [cm].
     radius: f64,
     /// How far the level has looked for touches [cm]: no step is longer.
@@ -97,7 +97,7 @@ impl Joint {
     }
 
     /// The derivative at the level's positions, exact or without its negative directions.
-    fn assemble(&self, level: &Level<'_>, positive: bool) -> Stiffness {
+    fn assembled(&self, level: &Level<'_>, positive: bool) -> Stiffness {
         let mut matrix = Stiffness::new(Arc::clone(&self.pattern));
         let at = &level.at;
         level
@@ -111,19 +111,21 @@ impl Joint {
         matrix
     }
 
+    /// The same with the nodes' damping.
+    fn damped(&self, level: &Level<'_>, positive: bool) -> Stiffness {
+        let mut matrix = self.assembled(level, positive);
+        let weights = level.sheet.weights().iter().zip(&self.damping);
+        for (node, (weight, damping)) in (0..).zip(weights) {
+            matrix.add(node, node, &(Mat3::identity() * (weight * damping)));
+        }
+        matrix
+    }
+
     /// What leads: the damped positive matrix. Where rounding makes it indefinite, as crushed rods
     /// may, all nodes are damped more; `None` where nothing helps.
     pub(super) fn leader(&mut self, level: &Level<'_>) -> Option<Leader> {
-        let mut matrix = self.assemble(level, true);
-        let mut added = vec![0.0; self.damping.len()];
         for _ in 0..DAMPED_MORE {
-            let weights = level.sheet.weights().iter().zip(&self.damping);
-            for (node, ((weight, damping), added)) in weights.zip(&mut added).enumerate() {
-                let more = weight * (damping - *added);
-                matrix.add(node as u32, node as u32, &(Mat3::identity() * more));
-                *added = *damping;
-            }
-            let leader = Leader::new(&self.way, &matrix);
+            let leader = Leader::new(&self.way, self.damped(level, true));
             if leader.is_some() {
                 return leader;
             }
@@ -140,7 +142,7 @@ impl Joint {
         level.joint_steps += 1;
         let forces = level.forces(&level.at);
         let leader = self.leader(level)?;
-        let exact = self.assemble(level, false);
+        let exact = self.assembled(level, false);
         let Answer::Moves(moves) = exact_answer(&leader, &exact, &forces) else {
             return None;
         };
@@ -167,7 +169,7 @@ impl Joint {
             if longest(&moves) <= TOO_FAR * self.radius {
                 break;
             }
-            self.damp(&moves);
+            self.damp(&moves, self.radius, 1.0);
             (leader, moves) = self.ask_damped(level, &forces)?;
         }
         let asked = longest(&moves);
@@ -179,8 +181,8 @@ impl Joint {
         let pitch = level.lattice.pitch;
         let damped = self.damping.iter().filter(|one| **one > DAMPED / pitch);
         let free = 100 * damped.count() <= level.at.len();
-        self.damp(&moves);
-        self.free(pitch, &moves);
+        self.damp(&moves, self.radius, 1.0);
+        self.free(&moves, self.radius, 0.5, LEAST_DAMPING / pitch);
         Some(Step {
             asked,
             made,
@@ -191,12 +193,7 @@ impl Joint {
 
     fn ask_damped(&mut self, level: &Level<'_>, forces: &[Vec3]) -> Option<(Leader, Vec<Vec3>)> {
         let leader = self.leader(level)?;
-        let mut damped = self.assemble(level, false);
-        let weights = level.sheet.weights().iter().zip(&self.damping);
-        for (node, (weight, damping)) in weights.enumerate() {
-            let block = Mat3::identity() * (weight * damping);
-            damped.add(node as u32, node as u32, &block);
-        }
+        let damped = self.damped(level, false);
         let far = 4.0 * self.radius;
         let moves = near_answer(&leader, &damped, forces, far);
         Some((leader, moves))
@@ -209,33 +206,38 @@ impl Joint {
         }
     }
 
-    /// Damps nodes that asked for more than is trusted.
-    fn damp(&mut self, moves: &[Vec3]) {
+    /// Damps nodes that asked for more than so many `times` what is `trusted` [cm]. Returns whether
+    /// any did.
+    pub(super) fn damp(&mut self, moves: &[Vec3], trusted: f64, times: f64) -> bool {
+        let mut any = false;
         for (damping, way) in self.damping.iter_mut().zip(moves) {
-            let asked = way.norm() / self.radius;
-            if asked > 1.0 {
-                *damping = damping.max(0.1 / self.radius) * asked.clamp(1.5, 10.0);
+            let asked = way.norm() / trusted;
+            if asked > times {
+                *damping = damping.max(0.1 / trusted) * asked.clamp(1.5, 10.0);
+                any = true;
             }
         }
+        any
     }
 
-    /// Frees nodes that asked for little.
-    fn free(&mut self, pitch: f64, moves: &[Vec3]) {
+    /// Leaves nodes that asked for less than half of what is `trusted` [cm] a part of their damping,
+    /// and no less than `least` [1/cm].
+    pub(super) fn free(&mut self, moves: &[Vec3], trusted: f64, part: f64, least: f64) {
         for (damping, way) in self.damping.iter_mut().zip(moves) {
-            if way.norm() < 0.5 * self.radius {
-                *damping = (*damping * 0.5).max(LEAST_DAMPING / pitch);
+            if way.norm() / trusted < 0.5 {
+                *damping = (*damping * part).max(least);
             }
         }
     }
 
     /// A direction in which the energy falls from a shape without forces, in moves [cm] of any
-    /// length; `None` where the shape is stable.
+    /// length; `None` where none was found.
     pub(super) fn way_out(&mut self, level: &Level<'_>) -> Option<Vec<Vec3>> {
         let leader = self.leader(level)?;
-        let exact = self.assemble(level, false);
+        let exact = self.assembled(level, false);
         match exact_answer(&leader, &exact, &level.any_forces()) {
-            Answer::Moves(_) => None,
             Answer::WayOut(way) => Some(way),
+            Answer::Moves(_) | Answer::Unclear => None,
         }
     }
 
@@ -257,9 +259,11 @@ impl Joint {
         let noise = 1e-12 * before.abs().max(1.0);
         let longest_move = LONGEST_MOVE * level.lattice.pitch;
         let asked = longest(moves).max(1e-300);
+        // What leads answers to the forces here.
+        let first = leader.answer(&level.forces(&level.at));
         let mut part = (self.sight.min(2.0 * self.radius) / asked).min(1.0);
         for halvings in 0..HALVINGS {
-            let to = corrected(level, leader, moves, part);
+            let to = corrected(level, leader, moves, &first, part);
             if level.energy(&to) <= before + noise {
                 let ways = to.iter().zip(&level.at).map(|(to, at)| (to - at).norm());
                 let made = ways.fold(0.0, f64::max);
@@ -281,10 +285,15 @@ impl Joint {
 
 /// A part of the step, and after it what leads says of the forces that turning has raised: rods that
 /// a straight move lengthened come back to their length.
-fn corrected(level: &Level<'_>, leader: &Leader, moves: &[Vec3], part: f64) -> Vec<Vec3> {
+fn corrected(
+    level: &Level<'_>,
+    leader: &Leader,
+    moves: &[Vec3],
+    first: &[Vec3],
+    part: f64,
+) -> Vec<Vec3> {
     let mut to = level.freely(|node| moves[node] * part);
     let mut energy = level.energy(&to);
-    let first = leader.answer(&level.forces(&level.at));
     for _ in 0..CORRECTIONS {
         let answer = leader.answer(&level.forces(&to));
         let way =

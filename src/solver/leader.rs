@@ -61,9 +61,9 @@ pub(super) enum Leader {
 
 impl Leader {
     /// Of a matrix; `None` where it is not positive definite.
-    pub(super) fn new(way: &Way, matrix: &Stiffness) -> Option<Self> {
+    pub(super) fn new(way: &Way, matrix: Stiffness) -> Option<Self> {
         Some(match way {
-            Way::Factors(plan) => Self::Factors(Arc::clone(plan), Factor::new(plan, matrix)?),
+            Way::Factors(plan) => Self::Factors(Arc::clone(plan), Factor::new(plan, &matrix)?),
             Way::Levels(levels) => {
                 Self::Levels(Arc::clone(levels), Multigrid::new(levels, matrix)?)
             }
@@ -82,7 +82,7 @@ impl Leader {
     /// one by multigrid.
     pub(super) fn answer_smoothly(&self, forces: &[Vec3]) -> Vec<Vec3> {
         match self {
-            Self::Factors(plan, factor) => factor.solve(plan, forces),
+            Self::Factors(..) => self.answer(forces),
             Self::Levels(levels, multigrid) => multigrid.answer_smoothly(levels, forces),
         }
     }

@@ -1,6 +1,6 @@
 //! One lattice on its way to rest: what the sweeps and the joint steps both work on.
 
-use super::{start::mix, stream::Stream};
+use super::{start::number, stream::Stream};
 use crate::{
     body::Bodies, certificate::Case, contact::Touches, forces::Sheet, lattice::Lattice, math::Vec3,
     threads,
@@ -75,10 +75,7 @@ impl<'a> Level<'a> {
     /// Forces that have a part in every move of the whole: those of no law, by the nodes' numbers
     /// [gf].
     pub(super) fn any_forces(&self) -> Vec<Vec3> {
-        let any = |node: usize, axis: usize| {
-            let mixed = mix(3 * node as u64 + axis as u64);
-            (mixed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        };
+        let any = |node: usize, axis: usize| number((3 * node + axis) as u64);
         let weights = self.sheet.weights();
         (0..self.at.len())
             .map(|node| {

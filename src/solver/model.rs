@@ -4,53 +4,46 @@
 use super::{leader::Leader, stiffness::Stiffness};
 use crate::math::Vec3;
 
-/// Rounds at most.
-const MOST_ROUNDS: usize = 2000;
-/// What is left of the force, measured by what leads, when steps converge quadratically: its square.
-const GOOD_ENOUGH: f64 = 1e-10;
+/// How far a search goes.
+struct Limits {
+    /// Rounds at most.
+    rounds: usize,
+    /// What may be left of the force, measured by what leads: its square, of what there was.
+    left: f64,
+    /// Moves longer than this are not followed up [cm].
+    far: f64,
+}
+
+/// A search that makes joint steps converge quadratically.
+const TO_THE_END: Limits = Limits {
+    rounds: 2000,
+    left: 1e-10,
+    far: f64::INFINITY,
+};
+/// The same where steps are cut short anyway: rounds at most, and what may be left.
+const FEW_ROUNDS: usize = 15;
+const NEARLY: f64 = 1e-2;
 
 /// What a model answers.
 #[derive(Debug)]
 pub(super) enum Answer {
     /// Moves of all nodes [cm].
     Moves(Vec<Vec3>),
-    /// The stiffness is not positive: the energy falls, or rises too slowly to say so, along this.
+    /// Along this, the energy falls ever faster: the stiffness is not positive.
     WayOut(Vec<Vec3>),
+    /// So many rounds did not tell.
+    Unclear,
 }
 
 /// The moves that answer `forces` [gf] by the `exact` stiffness.
 pub(super) fn exact_answer(leader: &Leader, exact: &Stiffness, forces: &[Vec3]) -> Answer {
-    let mut moves = vec![Vec3::zeros(); forces.len()];
-    let mut left = forces.to_vec();
-    let mut way = leader.answer(&left);
-    let mut product = dot(&left, &way);
-    let begun = product;
-    for _ in 0..MOST_ROUNDS {
-        if product <= GOOD_ENOUGH * begun {
-            return Answer::Moves(moves);
-        }
-        let push = exact.times(&way);
-        let curvature = dot(&way, &push);
-        if curvature.is_nan() || curvature <= 0.0 {
-            break;
-        }
-        let part = product / curvature;
-        add(&mut moves, &way, part);
-        add(&mut left, &push, -part);
-        let answer = leader.answer(&left);
-        let next = dot(&left, &answer);
-        let turn = next / product;
-        for (way, answer) in way.iter_mut().zip(answer) {
-            *way = answer + *way * turn;
-        }
-        product = next;
+    let found = search(leader, exact, forces, &TO_THE_END);
+    match found.way_out {
+        Some(way) => Answer::WayOut(way),
+        None if found.enough => Answer::Moves(found.moves),
+        None => Answer::Unclear,
     }
-    Answer::WayOut(way)
 }
-
-/// Rounds at most, and what may be left of the force, where steps are cut short anyway.
-const FEW_ROUNDS: usize = 15;
-const NEARLY: f64 = 1e-2;
 
 /// Nearly the moves that answer `forces` [gf] by a stiffness that may have negative directions: the
 /// search ends before one, and where moves have become longer than `far` [cm].
@@ -60,33 +53,68 @@ pub(super) fn near_answer(
     forces: &[Vec3],
     far: f64,
 ) -> Vec<Vec3> {
-    let mut moves = vec![Vec3::zeros(); forces.len()];
+    let limits = Limits {
+        rounds: FEW_ROUNDS,
+        left: NEARLY,
+        far,
+    };
+    let found = search(leader, stiffness, forces, &limits);
+    match found.way_out {
+        // The first way is downhill, whatever lies beyond.
+        Some(way) if found.rounds == 0 => way,
+        _ => found.moves,
+    }
+}
+
+/// What a search came to.
+struct Found {
+    moves: Vec<Vec3>,
+    /// Rounds that the moves are of.
+    rounds: usize,
+    /// Whether so little is left as was asked for, or moves are as long.
+    enough: bool,
+    /// A direction of negative stiffness, if the search met one.
+    way_out: Option<Vec<Vec3>>,
+}
+
+/// Conjugate gradients within limits.
+fn search(leader: &Leader, stiffness: &Stiffness, forces: &[Vec3], limits: &Limits) -> Found {
+    let mut found = Found {
+        moves: vec![Vec3::zeros(); forces.len()],
+        rounds: 0,
+        enough: false,
+        way_out: None,
+    };
     let mut left = forces.to_vec();
     let mut way = leader.answer(&left);
     let mut product = dot(&left, &way);
     let begun = product;
-    for rounds in 1..=FEW_ROUNDS {
+    loop {
+        found.enough = product <= limits.left * begun || longest(&found.moves) > limits.far;
+        if found.enough || found.rounds == limits.rounds {
+            return found;
+        }
         let push = stiffness.times(&way);
         let curvature = dot(&way, &push);
+        if curvature.is_nan() {
+            return found;
+        }
         if curvature <= 0.0 {
-            // The first way is downhill, whatever lies beyond.
-            return if rounds == 1 { way } else { moves };
+            found.way_out = Some(way);
+            return found;
         }
         let part = product / curvature;
-        add(&mut moves, &way, part);
+        add(&mut found.moves, &way, part);
         add(&mut left, &push, -part);
         let answer = leader.answer(&left);
         let next = dot(&left, &answer);
-        if next <= NEARLY * begun || longest(&moves) > far {
-            break;
-        }
         let turn = next / product;
         for (way, answer) in way.iter_mut().zip(answer) {
             *way = answer + *way * turn;
         }
         product = next;
+        found.rounds += 1;
     }
-    moves
 }
 
 /// The longest of some moves [cm]; not a number where one of them is not.
@@ -153,7 +181,7 @@ mod tests {
     #[test]
     fn moves_answer_the_exact_stiffness_whatever_leads() {
         let ((way, positive), (_, exact)) = (chain(2.0), chain(0.01));
-        let leader = Leader::new(&way, &positive).unwrap();
+        let leader = Leader::new(&way, positive).unwrap();
         let Answer::Moves(moves) = exact_answer(&leader, &exact, &forces()) else {
             panic!("it is positive");
         };
@@ -165,7 +193,7 @@ mod tests {
     #[test]
     fn a_negative_direction_is_found_and_is_one() {
         let ((way, positive), (_, exact)) = (chain(1.0), chain(-0.02));
-        let leader = Leader::new(&way, &positive).unwrap();
+        let leader = Leader::new(&way, positive).unwrap();
         let Answer::WayOut(out) = exact_answer(&leader, &exact, &forces()) else {
             panic!("it is not positive");
         };

@@ -103,7 +103,7 @@ impl Levels {
                 break;
             }
             let children = parents.turned(coarse.len());
-            let coarser = Arc::new(joined(&pattern, &parents, coarse.len()));
+            let coarser = Arc::new(joined(&pattern, &parents, &children));
             steps.push(Step {
                 colours: colours(&pattern),
                 parents,
@@ -114,7 +114,7 @@ impl Levels {
         }
         let place = |at: &[i32; 2]| Vec2::new(f64::from(at[0]), f64::from(at[1]));
         let places: Vec<Vec2> = grid.iter().map(place).collect();
-        let neighbours = Neighbours::of_pattern(&pattern);
+        let neighbours = Neighbours::new(grid.len(), &pattern.pairs());
         let free = (0..grid.len() as u32)
             .filter(|node| !pattern.row(*node as usize).is_empty())
             .collect();
@@ -161,26 +161,24 @@ fn coarsen(grid: &[[i32; 2]], pattern: &Pattern) -> (Vec<[i32; 2]>, Lists) {
 }
 
 /// Which coarse nodes share a block: those with children that do.
-fn joined(pattern: &Pattern, parents: &Lists, count: usize) -> Pattern {
+fn joined(pattern: &Pattern, parents: &Lists, children: &Lists) -> Pattern {
+    let count = children.first.len() - 1;
     let mut pairs = Vec::new();
-    for node in 0..pattern.len() {
-        for other in pattern.row(node) {
-            for (a, _) in parents.of(node) {
-                let others = parents.of(*other as usize).iter().map(|(b, _)| *b);
-                pairs.extend(others.filter(|b| b > a).map(|b| [*a, b]));
-            }
-        }
-        if pairs.len() > 1 << 20 {
-            pairs.sort_unstable();
-            pairs.dedup();
-        }
+    for node in 0..count {
+        let own = children.of(node).iter();
+        let beside = own.flat_map(|(child, _)| pattern.row(*child as usize));
+        let others = beside.flat_map(|other| parents.of(*other as usize));
+        let mut later: Vec<u32> = others
+            .map(|(other, _)| *other)
+            .filter(|other| *other as usize > node)
+            .collect();
+        later.sort_unstable();
+        later.dedup();
+        pairs.extend(later.into_iter().map(|other| [node as u32, other]));
     }
-    pairs.sort_unstable();
-    pairs.dedup();
-    let mut idle = vec![true; count];
-    for (parent, _) in &parents.entries {
-        idle[*parent as usize] = false;
-    }
+    let idle: Vec<bool> = (0..count)
+        .map(|node| children.of(node).is_empty())
+        .collect();
     Pattern::new(&Neighbours::new(count, &pairs), &idle)
 }
 
@@ -207,6 +205,7 @@ fn colours(pattern: &Pattern) -> Vec<Vec<u32>> {
 /// A positive matrix on all levels.
 #[derive(Debug)]
 pub(super) struct Multigrid {
+    /// Of all levels but the coarsest.
     matrices: Vec<Stiffness>,
     /// Inverse of each node's own block, by levels [cm/gf].
     inverses: Vec<Vec<Mat3>>,
@@ -215,18 +214,16 @@ pub(super) struct Multigrid {
 
 impl Multigrid {
     /// Of a matrix; `None` where it is not positive definite.
-    pub(super) fn new(levels: &Levels, matrix: &Stiffness) -> Option<Self> {
-        let mut matrices = vec![matrix.clone()];
+    pub(super) fn new(levels: &Levels, matrix: Stiffness) -> Option<Self> {
+        let mut coarsest = matrix;
+        let mut matrices = Vec::new();
         let mut inverses = Vec::new();
-        let mut coarser = None;
         for step in &levels.steps {
-            let finer = coarser.as_ref().unwrap_or(matrix);
-            inverses.push(inverses_of(finer)?);
-            let next = summed_up(step, finer);
-            matrices.push(next.clone());
-            coarser = Some(next);
+            inverses.push(inverses_of(&coarsest)?);
+            let coarser = summed_up(step, &coarsest);
+            matrices.push(core::mem::replace(&mut coarsest, coarser));
         }
-        let coarsest = Factor::new(&levels.coarsest, coarser.as_ref().unwrap_or(matrix))?;
+        let coarsest = Factor::new(&levels.coarsest, &coarsest)?;
         Some(Self {
             matrices,
             inverses,
@@ -364,7 +361,7 @@ mod tests {
 
     /// The greatest part of an error, in energy, that one answer leaves, by the power method.
     fn left_over(levels: &Levels, matrix: &Stiffness) -> f64 {
-        let multigrid = Multigrid::new(levels, matrix).unwrap();
+        let multigrid = Multigrid::new(levels, matrix.clone()).unwrap();
         let mut error = numbers(matrix, 0.3);
         let mut part = 0.0;
         for _ in 0..30 {
@@ -398,7 +395,7 @@ mod tests {
             Mat3::from_diagonal(&Vec3::from_fn(|k, _| if k == axis { 1e4 } else { 1.0 }))
         };
         let (levels, matrix) = sheet(50, [stiff(0), stiff(1)]);
-        let multigrid = Multigrid::new(&levels, &matrix).unwrap();
+        let multigrid = Multigrid::new(&levels, matrix.clone()).unwrap();
         let (x, y) = (numbers(&matrix, 0.1), numbers(&matrix, 0.7));
         let (of_x, of_y) = (multigrid.answer(&levels, &x), multigrid.answer(&levels, &y));
         let (one, other) = (dot(&x, &of_y), dot(&y, &of_x));
@@ -412,7 +409,7 @@ mod tests {
     #[test]
     fn a_small_sheet_is_answered_exactly() {
         let (levels, matrix) = sheet(14, [Mat3::identity(); 2]);
-        let multigrid = Multigrid::new(&levels, &matrix).unwrap();
+        let multigrid = Multigrid::new(&levels, matrix.clone()).unwrap();
         let moves = numbers(&matrix, 0.4);
         let answer = multigrid.answer(&levels, &matrix.times(&moves));
         for (found, expected) in answer.iter().zip(&moves) {
@@ -423,11 +420,11 @@ mod tests {
     #[test]
     fn a_matrix_that_is_not_positive_has_no_answer() {
         let (levels, mut matrix) = sheet(40, [Mat3::identity(); 2]);
-        assert!(Multigrid::new(&levels, &matrix).is_some());
+        assert!(Multigrid::new(&levels, matrix.clone()).is_some());
         matrix.add(5, 5, &(Mat3::identity() * -1e3));
-        assert!(Multigrid::new(&levels, &matrix).is_none());
+        assert!(Multigrid::new(&levels, matrix.clone()).is_none());
         matrix.add(5, 5, &Mat3::repeat(f64::NAN));
-        assert!(Multigrid::new(&levels, &matrix).is_none());
+        assert!(Multigrid::new(&levels, matrix.clone()).is_none());
     }
 
     #[cfg(feature = "threads")]
@@ -438,7 +435,7 @@ mod tests {
         let on = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             let answer = || {
-                let multigrid = Multigrid::new(&levels, &matrix).unwrap();
+                let multigrid = Multigrid::new(&levels, matrix.clone()).unwrap();
                 multigrid.answer(&levels, &forces)
             };
             let moves = pool.unwrap().install(answer);

@@ -156,8 +156,11 @@ impl Run<'_> {
             .iter()
             .map(|(_, carry)| carry.norm())
             .fold(0.0, f64::max);
-        let mut joint = Joint::new(level);
         let steps = (way / (CARRIED * level.lattice.pitch)).ceil() as usize;
+        if steps == 0 {
+            return;
+        }
+        let mut joint = Joint::new(level);
         for _ in 0..steps {
             if self.stopped {
                 break;

@@ -135,9 +135,8 @@ impl Start {
             let place = (grid[0] as u32 as u64) << 32 | grid[1] as u32 as u64;
             let mut to = *position;
             for axis in 0..3 {
-                let number = mix(mix(problem.seed ^ (axis as u64 + 1)) ^ place);
-                let unit = (number >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
-                to[axis] += 2.0 * unit * DISORDER * lattice.pitch;
+                let number = number(mix(problem.seed ^ (axis as u64 + 1)) ^ place);
+                to[axis] += number * DISORDER * lattice.pitch;
             }
             *position = stopped(&problem.bodies, position, to);
         }
@@ -171,8 +170,13 @@ fn inside(problem: &Problem, at: &Vec3, depth: f64) -> Unsolvable {
     }
 }
 
+/// A number between −1 and 1 for a seed.
+pub(super) fn number(seed: u64) -> f64 {
+    (mix(seed) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
 /// A step of the splitmix64 generator (Steele, Lea & Flood 2014).
-pub(super) fn mix(seed: u64) -> u64 {
+fn mix(seed: u64) -> u64 {
     let mut z = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);

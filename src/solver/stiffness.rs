@@ -45,6 +45,16 @@ impl Pattern {
         &self.columns[self.range(node)]
     }
 
+    /// All pairs of nodes that have a block, each once.
+    pub(super) fn pairs(&self) -> Vec<[u32; 2]> {
+        let rows = 0..self.len() as u32;
+        rows.flat_map(|node| {
+            let later = self.row(node as usize).iter().filter(move |n| **n > node);
+            later.map(move |other| [node, *other])
+        })
+        .collect()
+    }
+
     fn range(&self, node: usize) -> core::ops::Range<usize> {
         self.first[node] as usize..self.first[node + 1] as usize
     }

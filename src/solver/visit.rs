@@ -27,7 +27,6 @@ impl Level<'_> {
             longest = self.visit_colour(&mut stream, colour, longest);
         }
         self.stream = Some(stream);
-        self.updates += self.colours.iter().map(Vec::len).sum::<usize>() as u64;
         longest
     }
 
