@@ -60,6 +60,28 @@ pub(crate) fn for_each_chunk<T: Send>(
     }
 }
 
+/// Calls `work` on parts of at least `grain` entries, with the number of each part's first.
+pub(crate) fn for_each_part<T: Send>(
+    entries: &mut [T],
+    grain: usize,
+    work: impl Fn(usize, &mut [T]) + Sync + Send,
+) {
+    #[cfg(feature = "threads")]
+    {
+        use rayon::prelude::*;
+        let threads = rayon::current_num_threads();
+        if threads > 1 && entries.len() > 2 * grain {
+            let length = entries.len().div_ceil(threads).max(grain);
+            entries
+                .par_chunks_mut(length)
+                .enumerate()
+                .for_each(|(k, part)| work(k * length, part));
+            return;
+        }
+    }
+    work(0, entries);
+}
+
 /// Calls `work` on every row of `length` entries, with its number: rows are shared out by eights.
 pub(crate) fn for_each_row<T: Send>(
     entries: &mut [T],

@@ -67,7 +67,9 @@ pub struct Touches {
     surface: Surface,
     pitch: f64,
     touches: Vec<Touch>,
-    /// For each node, its touches.
+    /// Those that could act, in order.
+    awake: Vec<u32>,
+    /// For each node, its touches that could act.
     of_node: Vec<Vec<u32>>,
     /// No part was nearer to a node than this [cm] when it stood there.
     clearance: Vec<(f64, Vec3)>,
@@ -94,6 +96,7 @@ impl Touches {
             surface,
             pitch: lattice.pitch,
             touches: Vec::new(),
+            awake: Vec::new(),
             of_node: vec![Vec::new(); nodes],
             clearance: vec![(0.0, Vec3::repeat(f64::INFINITY)); nodes],
             places: vec![[None; PLACES]; sites.cells().len()],
@@ -140,7 +143,7 @@ impl Touches {
             self.places[cell] = places;
         }
         self.touches = fresh;
-        self.list_by_node(|_| true);
+        self.list_awake(|_| true);
     }
 
     /// What a node has near it, and its clearance if it was measured anew.
@@ -299,29 +302,36 @@ impl Touches {
         self.sites.samples() + PLACES
     }
 
-    fn list_by_node(&mut self, is_listed: impl Fn(usize) -> bool) {
+    /// Lists the touches that could act.
+    fn list_awake(&mut self, is_awake: impl Fn(usize) -> bool) {
+        self.awake.clear();
         for list in &mut self.of_node {
             list.clear();
         }
         for (k, touch) in self.touches.iter().enumerate() {
-            if !is_listed(k) {
+            if !is_awake(k) {
                 continue;
             }
+            self.awake.push(k as u32);
             for (node, _) in touch.site.shares() {
                 self.of_node[node as usize].push(k as u32);
             }
         }
     }
 
-    /// Leaves out of the nodes' pulls, until the next look, all touches that neither press nor rub nor
-    /// would after a move of `way` [cm].
+    fn each_awake(&self) -> impl Iterator<Item = &Touch> {
+        self.awake.iter().map(|k| &self.touches[*k as usize])
+    }
+
+    /// Leaves out of energy and forces, until the next look, all touches that neither press nor rub
+    /// nor would after moves of `way` [cm].
     pub fn wake(&mut self, at: &[Vec3], way: f64) {
         let wakes = threads::map(self.touches.len(), |k| {
             let touch = &self.touches[k];
             let clear = touch.normal.dot(&touch.site.at(at)) - touch.top;
             touch.friction.limit > 0.0 || clear < way
         });
-        self.list_by_node(|k| wakes[k]);
+        self.list_awake(|k| wakes[k]);
     }
 
     /// Sets every friction limit to µ times the normal force now. Touches that do not press let
@@ -343,7 +353,7 @@ impl Touches {
     /// Contact projection: brings sites that a long move took deep into the skin back to where they
     /// press little harder than before. `may_move` says which nodes may be moved for it.
     pub fn bring_back(&self, from: &[Vec3], to: &mut [Vec3], may_move: impl Fn(usize) -> bool) {
-        for touch in &self.touches {
+        for touch in self.each_awake() {
             let depth = |at: &[Vec3]| touch.top - touch.normal.dot(&touch.site.at(at));
             let excess = depth(to) - depth(from).max(0.0) - touch.skin.depth;
             if excess <= 0.0 {
@@ -361,19 +371,19 @@ impl Touches {
     /// Energy of all touches [gf·cm].
     #[must_use]
     pub fn energy(&self, at: &[Vec3]) -> f64 {
-        threads::sum(self.touches.len(), |k| {
-            let touch = &self.touches[k];
+        threads::sum(self.awake.len(), |k| {
+            let touch = &self.touches[self.awake[k] as usize];
             touch.energy(&touch.site.at(at))
         })
     }
 
     /// Adds the touches' forces to the nodes' [gf].
     pub fn add_forces(&self, at: &[Vec3], forces: &mut [Vec3]) {
-        let answers = threads::map(self.touches.len(), |k| {
-            let touch = &self.touches[k];
+        let answers = threads::map(self.awake.len(), |k| {
+            let touch = &self.touches[self.awake[k] as usize];
             touch.force(&touch.site.at(at))
         });
-        for (touch, force) in self.touches.iter().zip(answers) {
+        for (touch, force) in self.each_awake().zip(answers) {
             for (node, weight) in touch.site.shares() {
                 forces[node as usize] += force * weight;
             }
@@ -382,11 +392,11 @@ impl Touches {
 
     /// Hands the touches' stiffness [gf/cm] to `add(row, column, block)`, each pair once.
     pub fn stiffness(&self, at: &[Vec3], add: &mut dyn FnMut(u32, u32, &Mat3)) {
-        let blocks = threads::map(self.touches.len(), |k| {
-            let touch = &self.touches[k];
+        let blocks = threads::map(self.awake.len(), |k| {
+            let touch = &self.touches[self.awake[k] as usize];
             touch.answer(&touch.site.at(at)).map(|(_, block)| block)
         });
-        for (touch, block) in self.touches.iter().zip(blocks) {
+        for (touch, block) in self.each_awake().zip(blocks) {
             let Some(block) = block else { continue };
             for (k, (row, one)) in touch.site.shares().enumerate() {
                 for (column, other) in touch.site.shares().skip(k) {

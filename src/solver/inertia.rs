@@ -30,8 +30,10 @@ const FREED: f64 = 0.8;
 const LEAST_DAMPING: f64 = 0.02;
 /// No node is in haste when none asks for more than this part of the longest move.
 const CALM: f64 = 0.2;
-/// Touches farther away than so many moves of the last step are not felt in the next.
+/// Touches farther away than so many moves of the last step are not felt in the next; those that are
+/// felt are found for three times as far.
 const AWAKE: f64 = 2.0;
+const AWAKE_LATER: f64 = 3.0;
 /// A stop after more steps than this, with no node in haste, is one near rest.
 const LONG_RUN: usize = 30;
 
@@ -44,7 +46,9 @@ pub(super) struct Inertia {
     run: usize,
     /// Longest ways of a step, since the last look and of the last step [cm].
     fastest: f64,
-    last: f64,
+    pub(super) last: f64,
+    /// How far nodes may still go before other touches could be felt [cm].
+    clear: f64,
 }
 
 impl Inertia {
@@ -55,7 +59,14 @@ impl Inertia {
             run: 0,
             fastest: level.lattice.pitch,
             last: level.lattice.pitch,
+            clear: 0.0,
         }
+    }
+
+    /// The cloth has gone on by other means; how fast it went is kept.
+    pub(super) fn stop(&mut self, level: &Level<'_>) {
+        self.before.clone_from(&level.at);
+        self.run = 0;
     }
 
     /// Takes a step back, and stops.
@@ -63,7 +74,15 @@ impl Inertia {
         self.before.clone_from(&to);
         self.run = 0;
         level.at = to;
-        level.touches.wake(&level.at, f64::INFINITY);
+        self.clear = 0.0;
+    }
+
+    /// Wakes the touches that could be felt by moves of `way` [cm], unless they are awake.
+    fn wake(&mut self, level: &mut Level<'_>, way: f64) {
+        if self.clear < way {
+            self.clear = AWAKE_LATER * way;
+            level.touches.wake(&level.at, self.clear);
+        }
     }
 }
 
@@ -94,6 +113,7 @@ impl Run<'_> {
                     (2.0 * LOOKED_EVERY as f64 * inertia.fastest).clamp(0.005 * pitch, 0.8 * pitch);
                 level.look(way, way);
                 energy = f64::INFINITY;
+                inertia.clear = 0.0;
                 inertia.fastest = 0.0;
                 leader = None;
             }
@@ -148,7 +168,7 @@ struct Stride {
 
 impl Level<'_> {
     /// One step with inertia, no node led farther than `cap` [cm].
-    fn stride(&mut self, leader: &Leader, inertia: &Inertia, cap: f64) -> Stride {
+    fn stride(&mut self, leader: &Leader, inertia: &mut Inertia, cap: f64) -> Stride {
         let from = self.at.clone();
         let run = inertia.run as f64;
         if inertia.run > 0 {
@@ -162,7 +182,7 @@ impl Level<'_> {
                 (from[node] - inertia.before[node]) * part
             });
         }
-        self.touches.wake(&self.at, AWAKE * inertia.last);
+        inertia.wake(self, AWAKE * inertia.last);
         let begun = self.at.clone();
         let asked = leader.answer_smoothly(&self.quick_forces());
         self.at = self.freely(|node| {
@@ -171,6 +191,9 @@ impl Level<'_> {
         });
         self.sweep();
         let (made, climbs) = judge(&from, &begun, &self.at);
+        // What was gone inertly before the touches were woken counts as well, to be safe.
+        inertia.clear -= made;
+        inertia.wake(self, 0.0);
         Stride {
             from,
             asked,

@@ -4,7 +4,8 @@
 //! 1. The derivative of all forces by all positions is assembled: the exact one, and one without
 //!    its negative directions, which leads.
 //! 2. The exact one is solved by conjugate gradients. Where it has a negative direction the shape is
-//!    not stable, and there is no step; nor where the step would be long.
+//!    not stable, and there is no step; nor where the step would be long: unless other steps go even
+//!    less far, then the energy's fall is followed as far as is trusted.
 //! 3. The step is cut to the trusted length, and each node to the way that bodies leave free. It is
 //!    corrected for what turning has lengthened, and halved until the energy falls.
 //! 4. A cloth that lands is far from rest: nodes that ask for more than is trusted are damped, and
@@ -13,7 +14,8 @@
 use super::{
     leader::{Leader, Way},
     level::Level,
-    model::{Answer, exact_answer, longest, near_answer},
+    model::{Answer, exact_answer, longest, near_answer, way_out},
+    packed::{Layout, Packed},
     stiffness::{Pattern, Stiffness},
 };
 use crate::math::{Mat3, Vec3};
@@ -33,9 +35,11 @@ const TOO_FAR: f64 = 2.0;
 const ASKED_AGAIN: usize = 3;
 /// A step that asks for less than this part of a pitch is short.
 const NEAR: f64 = 0.5;
+/// A joint step takes as long as about so many steps with inertia.
+const STEPS_IN_TIME: f64 = 30.0;
 /// Most steps of a finish, and the move [cm] that ends it.
 const FINISHING: usize = 6;
-const FINISHED: f64 = 1e-5;
+pub(super) const FINISHED: f64 = 1e-5;
 /// Corrections after a joint step.
 const CORRECTIONS: usize = 3;
 /// All nodes are damped tenfold at most so often for a matrix that has no answer.
@@ -48,6 +52,7 @@ const HALVINGS: usize = 8;
 pub(super) struct Joint {
     way: Way,
     pattern: Arc<Pattern>,
+    layout: Arc<Layout>,
     /// Damping of each node in what leads: stiffness per weight [1/cm].
     damping: Vec<f64>,
     /// Length that steps are trusted to [cm].
@@ -87,8 +92,12 @@ impl Step {
 impl Joint {
     pub(super) fn new(level: &Level<'_>) -> Self {
         let (way, pattern) = Way::of(level);
+        let free: Vec<u32> = (0..level.at.len() as u32)
+            .filter(|node| !level.held[*node as usize])
+            .collect();
         Self {
             way,
+            layout: Layout::new(&pattern, [free.as_slice()]).into(),
             pattern,
             damping: vec![FIRST_DAMPING / level.lattice.pitch; level.at.len()],
             radius: 0.2 * level.lattice.pitch,
@@ -121,6 +130,10 @@ impl Joint {
         matrix
     }
 
+    fn packed(&self, matrix: &Stiffness) -> Packed<f64> {
+        Packed::new(&self.layout, matrix)
+    }
+
     /// What leads: the damped positive matrix. Where rounding makes it indefinite, as crushed rods
     /// may, all nodes are damped more; `None` where nothing helps.
     pub(super) fn leader(&mut self, level: &Level<'_>) -> Option<Leader> {
@@ -136,27 +149,36 @@ impl Joint {
         None
     }
 
-    /// One step; the level has just looked at its touches. `None` where the shape is not stable, or
-    /// rest is not near.
-    pub(super) fn step(&mut self, level: &mut Level<'_>) -> Option<Step> {
+    /// One step; the level has just looked at its touches. Where the shape is not stable, or rest is
+    /// not near, a `bold` step follows the energy's fall, and one that is not is `None`.
+    pub(super) fn step(&mut self, level: &mut Level<'_>, bold: bool) -> Option<Step> {
         level.joint_steps += 1;
         let forces = level.forces(&level.at);
         let leader = self.leader(level)?;
-        let exact = self.assembled(level, false);
-        let Answer::Moves(moves) = exact_answer(&leader, &exact, &forces) else {
-            return None;
+        let exact = self.packed(&self.assembled(level, false));
+        let far = level.lattice.pitch;
+        let (moves, exact) = match exact_answer(&leader, &exact, &forces, far, bold) {
+            Answer::Moves(moves) if longest(&moves) < NEAR * far => (moves, true),
+            Answer::Moves(moves) | Answer::Downhill(moves) if bold => (moves, false),
+            _ => return None,
         };
         let asked = longest(&moves);
-        if asked.is_nan() || asked >= NEAR * level.lattice.pitch {
+        if asked.is_nan() {
             return None;
         }
         let made = self.descend(level, &leader, &moves);
         Some(Step {
             asked,
             made,
-            exact: true,
-            free: true,
+            exact,
+            free: exact,
         })
+    }
+
+    /// Whether a joint step is trusted to go farther than the steps with inertia that could be taken
+    /// in its time, each of so much [cm].
+    pub(super) fn goes_farther_than(&self, steps: f64) -> bool {
+        self.radius > STEPS_IN_TIME * steps
     }
 
     /// A step of a cloth that is far from rest: by the exact stiffness, damped where nodes ask for
@@ -193,7 +215,7 @@ impl Joint {
 
     fn ask_damped(&mut self, level: &Level<'_>, forces: &[Vec3]) -> Option<(Leader, Vec<Vec3>)> {
         let leader = self.leader(level)?;
-        let damped = self.damped(level, false);
+        let damped = self.packed(&self.damped(level, false));
         let far = 4.0 * self.radius;
         let moves = near_answer(&leader, &damped, forces, far);
         Some((leader, moves))
@@ -234,18 +256,15 @@ impl Joint {
     /// length; `None` where none was found.
     pub(super) fn way_out(&mut self, level: &Level<'_>) -> Option<Vec<Vec3>> {
         let leader = self.leader(level)?;
-        let exact = self.assembled(level, false);
-        match exact_answer(&leader, &exact, &level.any_forces()) {
-            Answer::WayOut(way) => Some(way),
-            Answer::Moves(_) | Answer::Unclear => None,
-        }
+        let exact = self.packed(&self.assembled(level, false));
+        way_out(&leader, &exact, &level.any_forces())
     }
 
     /// Steps on with the touches as they were last seen, where nothing but smooth laws is left and
     /// steps converge quadratically.
     pub(super) fn finish(&mut self, level: &mut Level<'_>) {
         for _ in 0..FINISHING {
-            match self.step(level) {
+            match self.step(level, false) {
                 Some(step) if step.asked > FINISHED => (),
                 _ => break,
             }

@@ -12,6 +12,7 @@ mod leader;
 mod level;
 mod model;
 mod multigrid;
+mod packed;
 mod rest;
 mod start;
 mod stiffness;

@@ -1,7 +1,7 @@
 //! The move that a quadratic model of the energy asks for: conjugate gradients on the exact
 //! stiffness, which may have negative directions, led by a positive one (Steihaug 1983).
 
-use super::{leader::Leader, stiffness::Stiffness};
+use super::{leader::Leader, packed::Packed};
 use crate::math::Vec3;
 
 /// How far a search goes.
@@ -14,12 +14,13 @@ struct Limits {
     far: f64,
 }
 
-/// A search that makes joint steps converge quadratically.
-const TO_THE_END: Limits = Limits {
-    rounds: 2000,
-    left: 1e-10,
-    far: f64::INFINITY,
-};
+/// Rounds after which a search is given up.
+const MANY_ROUNDS: usize = 2000;
+/// What may be left of the force, by its square: steps far from rest are cut short anyway, those near
+/// it shall converge fast, and where nothing is left the search for a way out has been thorough.
+const ROUGHLY: f64 = 1e-3;
+const EXACTLY: f64 = 1e-7;
+const NOTHING: f64 = 1e-10;
 /// The same where steps are cut short anyway: rounds at most, and what may be left.
 const FEW_ROUNDS: usize = 15;
 const NEARLY: f64 = 1e-2;
@@ -29,27 +30,58 @@ const NEARLY: f64 = 1e-2;
 pub(super) enum Answer {
     /// Moves of all nodes [cm].
     Moves(Vec<Vec3>),
-    /// Along this, the energy falls ever faster: the stiffness is not positive.
-    WayOut(Vec<Vec3>),
+    /// Moves [cm] in the way of which the energy falls, and it is not known how far: they became too
+    /// long, or met a direction in which it falls ever faster and go on along that.
+    Downhill(Vec<Vec3>),
     /// So many rounds did not tell.
     Unclear,
 }
 
-/// The moves that answer `forces` [gf] by the `exact` stiffness.
-pub(super) fn exact_answer(leader: &Leader, exact: &Stiffness, forces: &[Vec3]) -> Answer {
-    let found = search(leader, exact, forces, &TO_THE_END);
-    match found.way_out {
-        Some(way) => Answer::WayOut(way),
-        None if found.enough => Answer::Moves(found.moves),
-        None => Answer::Unclear,
+/// The moves that answer `forces` [gf] by the `exact` stiffness, if none is longer than `far` [cm];
+/// a `rough` answer is good enough where they are cut short.
+pub(super) fn exact_answer(
+    leader: &Leader,
+    exact: &Packed<f64>,
+    forces: &[Vec3],
+    far: f64,
+    rough: bool,
+) -> Answer {
+    let limits = Limits {
+        rounds: MANY_ROUNDS,
+        left: if rough { ROUGHLY } else { EXACTLY },
+        far,
+    };
+    let mut found = search(leader, exact, forces, &limits);
+    if let Some(way) = found.way_out {
+        let part = far / longest(&way);
+        add(&mut found.moves, &way, part);
+        return Answer::Downhill(found.moves);
     }
+    if !found.enough {
+        Answer::Unclear
+    } else if longest(&found.moves) > far {
+        Answer::Downhill(found.moves)
+    } else {
+        Answer::Moves(found.moves)
+    }
+}
+
+/// A direction in which the energy falls from a shape without forces, in moves of any length; `None`
+/// where a search begun by `forces` meets none.
+pub(super) fn way_out(leader: &Leader, exact: &Packed<f64>, forces: &[Vec3]) -> Option<Vec<Vec3>> {
+    let limits = Limits {
+        rounds: MANY_ROUNDS,
+        left: NOTHING,
+        far: f64::INFINITY,
+    };
+    search(leader, exact, forces, &limits).way_out
 }
 
 /// Nearly the moves that answer `forces` [gf] by a stiffness that may have negative directions: the
 /// search ends before one, and where moves have become longer than `far` [cm].
 pub(super) fn near_answer(
     leader: &Leader,
-    stiffness: &Stiffness,
+    stiffness: &Packed<f64>,
     forces: &[Vec3],
     far: f64,
 ) -> Vec<Vec3> {
@@ -78,7 +110,7 @@ struct Found {
 }
 
 /// Conjugate gradients within limits.
-fn search(leader: &Leader, stiffness: &Stiffness, forces: &[Vec3], limits: &Limits) -> Found {
+fn search(leader: &Leader, stiffness: &Packed<f64>, forces: &[Vec3], limits: &Limits) -> Found {
     let mut found = Found {
         moves: vec![Vec3::zeros(); forces.len()],
         rounds: 0,
@@ -142,7 +174,8 @@ mod tests {
             dissection::{Neighbours, dissect},
             factor::Plan,
             leader::Way,
-            stiffness::Pattern,
+            packed::Layout,
+            stiffness::{Pattern, Stiffness},
         },
         *,
     };
@@ -172,6 +205,12 @@ mod tests {
         (Way::Factors(Arc::new(plan)), matrix)
     }
 
+    fn packed(matrix: &Stiffness) -> Packed<f64> {
+        let rows: Vec<u32> = (0..NODES).collect();
+        let layout = Layout::new(matrix.pattern(), [rows.as_slice()]);
+        Packed::new(&layout.into(), matrix)
+    }
+
     fn forces() -> Vec<Vec3> {
         let force =
             |node: u32| Vec3::from_fn(|axis, _| libm::sin(f64::from(3 * node) + axis as f64));
@@ -181,23 +220,33 @@ mod tests {
     #[test]
     fn moves_answer_the_exact_stiffness_whatever_leads() {
         let ((way, positive), (_, exact)) = (chain(2.0), chain(0.01));
+        let exact = packed(&exact);
         let leader = Leader::new(&way, positive).unwrap();
-        let Answer::Moves(moves) = exact_answer(&leader, &exact, &forces()) else {
+        let Answer::Moves(moves) = exact_answer(&leader, &exact, &forces(), 1e6, false) else {
             panic!("it is positive");
         };
         for (push, force) in exact.times(&moves).iter().zip(forces()) {
-            assert!((push - force).norm() < 1e-3, "{push} {force}");
+            assert!((push - force).norm() < 1e-2, "{push} {force}");
         }
+        let far = 0.1 * longest(&moves);
+        let Answer::Downhill(moves) = exact_answer(&leader, &exact, &forces(), far, false) else {
+            panic!("it is longer");
+        };
+        assert!(dot(&moves, &forces()) > 0.0);
     }
 
     #[test]
     fn a_negative_direction_is_found_and_is_one() {
         let ((way, positive), (_, exact)) = (chain(1.0), chain(-0.02));
+        let exact = packed(&exact);
         let leader = Leader::new(&way, positive).unwrap();
-        let Answer::WayOut(out) = exact_answer(&leader, &exact, &forces()) else {
+        let out = way_out(&leader, &exact, &forces()).expect("there is one");
+        assert!(dot(&out, &exact.times(&out)) < 0.0);
+        let Answer::Downhill(moves) = exact_answer(&leader, &exact, &forces(), 50.0, false) else {
             panic!("it is not positive");
         };
-        assert!(dot(&out, &exact.times(&out)) < 0.0);
+        let energy = 0.5 * dot(&moves, &exact.times(&moves)) - dot(&moves, &forces());
+        assert!(energy < 0.0, "{energy}");
         // Where steps are cut short anyway, what is asked for still goes downhill.
         let moves = near_answer(&leader, &exact, &forces(), f64::INFINITY);
         assert!(dot(&moves, &forces()) > 0.0);

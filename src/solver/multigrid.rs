@@ -13,10 +13,11 @@
 use super::{
     dissection::{Neighbours, dissect},
     factor::{Factor, Plan},
+    packed::{Inverses, Layout, Packed},
     stiffness::{Pattern, Stiffness},
 };
 use crate::{
-    math::{Mat3, Vec2, Vec3},
+    math::{Vec2, Vec3},
     threads,
 };
 use std::{collections::BTreeMap, sync::Arc};
@@ -37,7 +38,7 @@ pub(super) struct Levels {
 #[derive(Debug)]
 struct Step {
     /// Free nodes by colours.
-    colours: Vec<Vec<u32>>,
+    layout: Arc<Layout>,
     /// Each node's parents on the coarser level, and their parts of it.
     parents: Lists,
     /// The same by parents.
@@ -104,8 +105,9 @@ impl Levels {
             }
             let children = parents.turned(coarse.len());
             let coarser = Arc::new(joined(&pattern, &parents, &children));
+            let colours = colours(&pattern);
             steps.push(Step {
-                colours: colours(&pattern),
+                layout: Layout::new(&pattern, colours.iter().map(Vec::as_slice)).into(),
                 parents,
                 children,
                 coarser: Arc::clone(&coarser),
@@ -205,10 +207,10 @@ fn colours(pattern: &Pattern) -> Vec<Vec<u32>> {
 /// A positive matrix on all levels.
 #[derive(Debug)]
 pub(super) struct Multigrid {
-    /// Of all levels but the coarsest.
-    matrices: Vec<Stiffness>,
+    /// Of all levels but the coarsest: single precision is enough to lead by.
+    matrices: Vec<Packed<f32>>,
     /// Inverse of each node's own block, by levels [cm/gf].
-    inverses: Vec<Vec<Mat3>>,
+    inverses: Vec<Inverses<f32>>,
     coarsest: Factor,
 }
 
@@ -219,9 +221,9 @@ impl Multigrid {
         let mut matrices = Vec::new();
         let mut inverses = Vec::new();
         for step in &levels.steps {
-            inverses.push(inverses_of(&coarsest)?);
-            let coarser = summed_up(step, &coarsest);
-            matrices.push(core::mem::replace(&mut coarsest, coarser));
+            inverses.push(Inverses::new(&step.layout, &coarsest)?);
+            matrices.push(Packed::new(&step.layout, &coarsest));
+            coarsest = summed_up(step, &coarsest);
         }
         let coarsest = Factor::new(&levels.coarsest, &coarsest)?;
         Some(Self {
@@ -251,44 +253,24 @@ impl Multigrid {
         let Some(step) = levels.steps.get(number) else {
             return self.coarsest.solve(&levels.coarsest, forces);
         };
+        let (matrix, inverses) = (&self.matrices[number], &self.inverses[number]);
         let mut moves = vec![Vec3::zeros(); forces.len()];
-        for colour in &step.colours {
-            self.visit(number, colour, forces, &mut moves);
+        for colour in 0..matrix.groups() {
+            matrix.visit(colour, inverses, forces, &mut moves);
         }
-        let matrix = &self.matrices[number];
-        let left = threads::map(forces.len(), |node| {
-            forces[node] - matrix.row_times(node, &moves)
-        });
+        let mut left = matrix.times(&moves);
+        for (left, force) in left.iter_mut().zip(forces) {
+            *left = force - *left;
+        }
         let coarse = self.answer_at(levels, number + 1, &step.children.sum(&left));
         for (way, more) in moves.iter_mut().zip(step.parents.sum(&coarse)) {
             *way += more;
         }
-        for colour in step.colours.iter().rev() {
-            self.visit(number, colour, forces, &mut moves);
+        for colour in (0..matrix.groups()).rev() {
+            matrix.visit(colour, inverses, forces, &mut moves);
         }
         moves
     }
-
-    /// Each node of a colour to its own equilibrium.
-    fn visit(&self, number: usize, colour: &[u32], forces: &[Vec3], moves: &mut [Vec3]) {
-        let (matrix, inverses) = (&self.matrices[number], &self.inverses[number]);
-        let ways = threads::map(colour.len(), |k| {
-            let node = colour[k] as usize;
-            inverses[node] * (forces[node] - matrix.row_times(node, moves))
-        });
-        for (node, way) in colour.iter().zip(ways) {
-            moves[*node as usize] += way;
-        }
-    }
-}
-
-/// The inverse of each node's own block; zero of held nodes, `None` where one has none.
-fn inverses_of(matrix: &Stiffness) -> Option<Vec<Mat3>> {
-    let inverses = threads::map(matrix.len(), |node| match matrix.diagonal(node) {
-        Some(block) => block.cholesky().map(|factor| factor.inverse()),
-        None => Some(Mat3::zeros()),
-    });
-    inverses.into_iter().collect()
 }
 
 /// `Pᵀ A P`, row by row of the coarser level.
@@ -311,6 +293,7 @@ fn summed_up(step: &Step, finer: &Stiffness) -> Stiffness {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Mat3;
 
     /// A sheet of nodes that are drawn to their four neighbours as `springs` say along x and y, and
     /// a little to the ground; some are held, and a hole is left.
@@ -347,7 +330,7 @@ mod tests {
     /// Some numbers for every free node.
     fn numbers(matrix: &Stiffness, seed: f64) -> Vec<Vec3> {
         let number = |node: usize, axis: usize| libm::sin(seed + (3 * node + axis) as f64 * 1.9);
-        (0..matrix.len())
+        (0..matrix.pattern().len())
             .map(|node| match matrix.diagonal(node) {
                 Some(_) => Vec3::from_fn(|axis, _| number(node, axis)),
                 None => Vec3::zeros(),

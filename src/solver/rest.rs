@@ -4,7 +4,7 @@ use super::{
     Progress, Settings,
     film::Film,
     inertia::Inertia,
-    joint::{Joint, Step},
+    joint::{FINISHED, Joint, Step},
     level::Level,
     model::longest,
     start::Start,
@@ -14,9 +14,10 @@ use crate::{
     math::Vec3,
 };
 
-/// Steps with inertia before the first joint step is tried, and by how much more each time.
+/// Steps with inertia before the first joint step is tried, by how much more each time, and at most.
 const FIRST_TRY: usize = 60;
 const LATER_TRIES: f64 = 1.5;
+const RAREST_TRY: f64 = 200.0;
 /// A coarse level is left when a joint step asks for less than this part of its pitch.
 const COARSE_ENOUGH: f64 = 0.05;
 /// Most sweeps on a coarse level: its task is a start for the next.
@@ -45,6 +46,8 @@ const CARRIED: f64 = 0.1;
 const CARRYING: usize = 10;
 /// A shape that is not stable is moved on by this part of a pitch.
 const KICK: f64 = 0.02;
+/// Bold joint steps go on as long as each goes farther than this part of a pitch.
+const WORTHWHILE: f64 = 0.02;
 /// Sweeps between two looks at the residual where there are no joint steps.
 const PLAIN_SWEEPS: usize = 20;
 /// No estimate of the way to rest is below this [cm]: the laws of contact are looked at anew only
@@ -102,21 +105,24 @@ impl Run<'_> {
             level.touches.rub(LANDING_GRIP * case.surface.friction);
         }
         let mut patience = FIRST_TRY as f64;
+        let mut bold = false;
         for round in 0.. {
             if !self.goes_on(level, number, &standing) {
                 break;
             }
-            if !standing.near && !lands {
+            if !standing.near && !lands && !bold {
                 let most = patience as usize;
                 self.glide(level, &mut joint, &mut inertia, number, &standing, most);
-                patience *= LATER_TRIES;
+                patience = (patience * LATER_TRIES).min(RAREST_TRY);
             }
             let mut step = None;
             if standing.near || !lands {
-                step = joint.round(level, standing.made);
+                bold = last && (bold || standing.near || joint.goes_farther_than(inertia.last));
+                step = joint.round(level, standing.made, bold);
+                bold &= step.is_some_and(|step: Step| step.made > WORTHWHILE * level.lattice.pitch);
             }
             if step.is_some() {
-                inertia = Inertia::none(level);
+                inertia.stop(level);
             } else if lands {
                 step = joint.land(level, standing.made);
             }
@@ -134,10 +140,10 @@ impl Run<'_> {
             if !last {
                 continue;
             }
-            if standing.settled_for > 1 {
+            if standing.settled_for > 1 && step.asked > FINISHED {
                 joint.finish(level);
             }
-            standing.go_to(&level.at, &step);
+            standing.go_to(&level.at, &step, level.touches.list().is_empty());
             if self.is_settled(level, case, &mut standing, round) {
                 let Some(way) = joint.way_out(level) else {
                     break;
@@ -272,8 +278,9 @@ impl Standing {
 
     /// Ends a round, and estimates what remains from how rounds contract: ways that shrink to a
     /// part ρ each round have way/(1 − ρ) to go in all. A cloth that creeps (ρ = 1) is never near
-    /// rest, however short its rounds; one that swings (ρ < 0) goes no farther than it swings.
-    fn go_to(&mut self, at: &[Vec3], step: &Step) {
+    /// rest, however short its rounds; one that swings (ρ < 0) goes no farther than it swings. Where
+    /// nothing is touched, the laws are `smooth`: an exact step asks for all that is left.
+    fn go_to(&mut self, at: &[Vec3], step: &Step, smooth: bool) {
         let (mut longest, mut along, mut square) = (step.asked, 0.0, 0.0);
         for ((to, from), way) in at.iter().zip(&mut self.at).zip(&mut self.way) {
             let next = to - *from;
@@ -291,7 +298,7 @@ impl Standing {
         } else {
             longest / (1.0 - contraction.clamp(0.0, 1.0))
         };
-        self.remaining = self.worst_of(ACQUAINTED);
+        self.remaining = self.worst_of(if smooth { 1 } else { ACQUAINTED });
     }
 
     /// The worst that the last rounds said [cm].
@@ -320,9 +327,9 @@ impl Joint {
     }
 
     /// A joint step with what bodies are near.
-    fn round(&mut self, level: &mut Level<'_>, made: f64) -> Option<Step> {
+    fn round(&mut self, level: &mut Level<'_>, made: f64, bold: bool) -> Option<Step> {
         self.look(level, made);
-        self.step(level)
+        self.step(level, bold)
     }
 }
 

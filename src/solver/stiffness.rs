@@ -1,10 +1,9 @@
 //! The joint system's matrix: 3×3 blocks between nodes that share a force [gf/cm].
 
 use super::dissection::Neighbours;
-use crate::{
-    math::{Mat3, Vec3},
-    threads,
-};
+#[cfg(test)]
+use crate::math::Vec3;
+use crate::{math::Mat3, threads};
 use std::sync::Arc;
 
 /// Which nodes have a block with which: found once for a lattice.
@@ -55,7 +54,8 @@ impl Pattern {
         .collect()
     }
 
-    fn range(&self, node: usize) -> core::ops::Range<usize> {
+    /// Where the blocks of a row stand.
+    pub(super) fn range(&self, node: usize) -> core::ops::Range<usize> {
         self.first[node] as usize..self.first[node + 1] as usize
     }
 
@@ -98,9 +98,23 @@ impl Stiffness {
         }
     }
 
-    /// Nodes, held ones too.
-    pub(super) fn len(&self) -> usize {
-        self.pattern.len()
+    /// Which blocks there are.
+    #[cfg(test)]
+    pub(super) fn pattern(&self) -> &Arc<Pattern> {
+        &self.pattern
+    }
+
+    /// The matrix times moves, block by block.
+    #[cfg(test)]
+    pub(super) fn times(&self, moves: &[Vec3]) -> Vec<Vec3> {
+        let product = |row| {
+            let (columns, blocks) = self.row(row);
+            let parts = columns.iter().zip(blocks);
+            parts
+                .map(|(column, block)| block * moves[*column as usize])
+                .sum()
+        };
+        (0..moves.len()).map(product).collect()
     }
 
     /// Adds a block at (row, column), and so its transpose at (column, row); held nodes and pairs
@@ -122,24 +136,14 @@ impl Stiffness {
         (self.pattern.row(node), blocks)
     }
 
+    /// The block at a place of the pattern.
+    pub(super) fn block(&self, place: usize) -> &Mat3 {
+        &self.blocks[place]
+    }
+
     /// A node's own block; `None` of a held node.
     pub(super) fn diagonal(&self, node: usize) -> Option<&Mat3> {
         let place = self.pattern.place(node as u32, node as u32)?;
         Some(&self.blocks[place])
-    }
-
-    /// One row of the matrix times moves [gf].
-    pub(super) fn row_times(&self, node: usize, moves: &[Vec3]) -> Vec3 {
-        let (columns, blocks) = self.row(node);
-        let mut sum = Vec3::zeros();
-        for (column, block) in columns.iter().zip(blocks) {
-            sum += block * moves[*column as usize];
-        }
-        sum
-    }
-
-    /// The matrix times moves: the forces that answer them [gf].
-    pub(super) fn times(&self, moves: &[Vec3]) -> Vec<Vec3> {
-        threads::map(moves.len(), |node| self.row_times(node, moves))
     }
 }
