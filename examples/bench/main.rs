@@ -1,22 +1,29 @@
-//! Measures what a sweep and a certificate cost on this machine, and prints a table:
+//! Measures what a sweep and a certificate cost on this machine, and
+//! prints a table of each:
 //! `cargo run --release --example bench -- [updates|certificate] [most nodes a side]`.
 //!
 //! The work is always the same: a square of fabric C, 1 m a side, with N × N nodes, either held at
-//! two corners ("hang") or laid on a ball of radius 25 cm ("ball"). A figure is the least of three
-//! runs, since other programs can only add to it.
+//! two corners ("hang") or laid on a ball of radius 25 cm ("ball"). A figure of `updates` is the
+//! least of three runs, since other programs can only add to it.
 
 #![allow(clippy::print_stdout, reason = "a program that prints")]
 
+mod square;
+
+use peak_alloc::PeakAlloc;
 use soen::{
     body::{Bodies, Part, Shape},
-    forces::Laws,
-    lattice::{Outline, Piece},
     math::{Pose, Vec2, Vec3},
-    solver::{ForceModel, Grip, Hold, Placement, Problem, Settings, settle, sweeps},
+    solver::{Grip, Hold, Problem, Settings, settle, sweeps},
 };
+use square::{Crew, Tried, square};
 use std::{error::Error, time::Instant};
 
-type Tried<T> = Result<T, Box<dyn Error>>;
+/// Counts the bytes that are in use.
+#[global_allocator]
+static MEMORY: PeakAlloc = PeakAlloc;
+
+const MODES: [&str; 2] = ["updates", "certificate"];
 
 fn main() -> Tried<()> {
     let mut what = "all".to_owned();
@@ -28,9 +35,8 @@ fn main() -> Tried<()> {
         }
     }
     let asked = |name: &str| what == "all" || what == name;
-    let unknown = !["updates", "certificate"].iter().any(|name| asked(name));
-    if unknown {
-        return Err(format!("{what}: allowed: updates, certificate").into());
+    if !MODES.into_iter().any(asked) {
+        return Err(format!("{what}: allowed: {}", MODES.join(", ")).into());
     }
     if asked("updates") {
         updates()?;
@@ -39,31 +45,6 @@ fn main() -> Tried<()> {
         certificates(most)?;
     }
     Ok(())
-}
-
-/// The square, N × N nodes, above whatever it meets.
-fn square(nodes: u32) -> Tried<Problem> {
-    let fabric = soen::scene::fabric("c")?;
-    Ok(Problem {
-        piece: Piece {
-            outline: Outline::rectangle(100.0, 100.0)?,
-            grain: 0.0,
-            pitch: 100.0 / f64::from(nodes - 1),
-        },
-        placement: Placement {
-            centre: Vec3::new(0.0, 0.0, 26.0),
-            x_axis: Vec3::x(),
-            y_axis: Vec3::y(),
-        },
-        holds: vec![],
-        bodies: Bodies::default(),
-        friction: 0.3,
-        thickness: fabric.thickness,
-        laws: Laws::default(),
-        forces: ForceModel::Lattice,
-        seed: 1,
-        fabric,
-    })
 }
 
 fn hang(nodes: u32) -> Tried<Problem> {
@@ -116,22 +97,30 @@ fn updates() -> Tried<()> {
     println!("      N   1 thread  2 threads   ratio");
     for nodes in [65, 129, 257] {
         let problem = hang(nodes)?;
-        let one = on(1, || update(&problem, 50))?;
-        let two = on(2, || update(&problem, 50))?;
+        let one = on(1, &problem)?;
+        let two = on(2, &problem)?;
         println!("  {nodes:5} {one:10.0} {two:10.0} {:7.2}", one / two);
     }
     Ok(())
 }
 
+fn on(threads: usize, problem: &Problem) -> Tried<f64> {
+    let crew = Crew::of(threads)?;
+    Ok(crew.run(|| update(problem, 50).map_err(|error| error.to_string()))?)
+}
+
 fn certificates(most: u32) -> Tried<()> {
     println!("To the certificate at 1e-3");
     println!(
-        "  work     N   nodes  seconds  sweeps on the finest  joint steps  updates in finest sweeps"
+        "  work     N   nodes  seconds  sweeps on the finest  joint steps  updates in finest sweeps  \
+         bytes a node at most"
     );
     let sides = [33, 65, 129, 257, 513];
     for (name, work) in [("ball", ball as fn(u32) -> Tried<Problem>), ("hang", hang)] {
         for nodes in sides.into_iter().filter(|nodes| *nodes <= most) {
             let problem = work(nodes)?;
+            let before = MEMORY.current_usage();
+            MEMORY.reset_peak_usage();
             let begin = Instant::now();
             let settings = Settings {
                 tolerance: 1e-3,
@@ -141,15 +130,17 @@ fn certificates(most: u32) -> Tried<()> {
                 begin.elapsed().as_secs_f64() < 3000.0
             })?;
             let seconds = begin.elapsed().as_secs_f64();
+            let bytes = MEMORY.peak_usage() - before;
             let Some(finest) = settled.levels.last() else {
                 continue;
             };
             let steps: usize = settled.levels.iter().map(|level| level.joint_steps).sum();
             println!(
-                "  {name} {nodes:5} {:7} {seconds:8.2} {:21} {steps:12} {:25.0}{}",
+                "  {name} {nodes:5} {:7} {seconds:8.2} {:21} {steps:12} {:25.0} {:21.0}{}",
                 finest.nodes,
                 finest.sweeps,
                 settled.node_updates as f64 / finest.nodes as f64,
+                bytes as f64 / finest.nodes as f64,
                 if settled.converged {
                     ""
                 } else {
@@ -159,19 +150,4 @@ fn certificates(most: u32) -> Tried<()> {
         }
     }
     Ok(())
-}
-
-/// Does a work on so many threads.
-#[cfg(feature = "threads")]
-fn on(threads: usize, work: impl FnOnce() -> Tried<f64> + Send) -> Tried<f64> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()?;
-    let done = pool.install(|| work().map_err(|error| error.to_string()));
-    Ok(done?)
-}
-
-#[cfg(not(feature = "threads"))]
-fn on(_: usize, work: impl FnOnce() -> Tried<f64>) -> Tried<f64> {
-    work()
 }
