@@ -1,6 +1,6 @@
-//! Measures what a sweep and a certificate cost on this machine, and
+//! Measures what a sweep and a certificate cost on this machine, and what rapier's cloth does, and
 //! prints a table of each:
-//! `cargo run --release --example bench -- [updates|certificate] [most nodes a side]`.
+//! `cargo run --release --example bench -- [updates|certificate|rapier] [most nodes a side]`.
 //!
 //! The work is always the same: a square of fabric C, 1 m a side, with N × N nodes, either held at
 //! two corners ("hang") or laid on a ball of radius 25 cm ("ball"). A figure of `updates` is the
@@ -8,6 +8,7 @@
 
 #![allow(clippy::print_stdout, reason = "a program that prints")]
 
+mod engine;
 mod square;
 
 use peak_alloc::PeakAlloc;
@@ -23,7 +24,7 @@ use std::{error::Error, time::Instant};
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-const MODES: [&str; 2] = ["updates", "certificate"];
+const MODES: [&str; 3] = ["updates", "certificate", "rapier"];
 
 fn main() -> Tried<()> {
     let mut what = "all".to_owned();
@@ -43,6 +44,11 @@ fn main() -> Tried<()> {
     }
     if asked("certificate") {
         certificates(most)?;
+    }
+    if asked("rapier") {
+        let sides = [33, 65].into_iter().filter(|nodes| *nodes <= most);
+        let works: Tried<Vec<_>> = sides.map(|nodes| Ok((nodes, ball(nodes)?))).collect();
+        engine::compare(&works?)?;
     }
     Ok(())
 }
