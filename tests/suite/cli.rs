@@ -165,6 +165,12 @@ fn a_preview_is_marked_as_one() {
     assert_eq!(said.code, 0, "{}", said.err);
     let report: serde_json::Value = serde_json::from_str(&said.out).unwrap();
     assert_eq!(report["title"], "hang (preview)");
+    let png = fs::read(trial.path().join("out/drape.png")).unwrap();
+    // Width and height stand in a PNG's header: a preview's picture is a quarter of a drape's.
+    assert_eq!(
+        [&png[16..20], &png[20..24]],
+        [&600_u32.to_be_bytes(), &450_u32.to_be_bytes()]
+    );
 }
 
 #[test]

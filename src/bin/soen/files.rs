@@ -9,11 +9,17 @@ use soen::{
 };
 use std::path::Path;
 
+/// Width and height of pictures [pixels]. At full size a preview's would take longer than its cloth.
+const DRAPE: [u32; 2] = [1200, 900];
+const PREVIEW: [u32; 2] = [600, 450];
+
 /// What is written, and where.
 pub(crate) struct Files<'a> {
     out: &'a Path,
     title: String,
     caption: Option<&'a str>,
+    /// Of pictures.
+    size: [u32; 2],
     cloth: ClothMesh<'a>,
     frames: &'a [Vec<Vec3>],
     bodies: Vec<BodyMesh>,
@@ -34,6 +40,7 @@ impl<'a> Files<'a> {
                 Some(mark) => format!("{} ({mark})", scene.title),
             },
             caption: mark,
+            size: if wish.preview { PREVIEW } else { DRAPE },
             cloth,
             frames: &settled.frames,
             bodies: output::body_meshes(&scene.problem.bodies),
@@ -79,7 +86,8 @@ impl<'a> Files<'a> {
         let view = View {
             heat,
             caption: self.caption,
-            ..View::default()
+            width: self.size[0],
+            height: self.size[1],
         };
         output::picture(cloth, &self.bodies, &view)
     }
