@@ -98,34 +98,25 @@ impl Run<'_> {
         let last = number + 1 == self.levels;
         let mut joint = Joint::new(level);
         let mut standing = Standing::new(level);
-        let mut inertia = Inertia::none(level);
+        let mut approach = Approach {
+            inertia: Inertia::none(level),
+            patience: FIRST_TRY as f64,
+            bold: false,
+        };
         let lands = number == 0;
         if lands {
             self.carry_holds(level, start, &standing);
             level.touches.rub(LANDING_GRIP * case.surface.friction);
         }
-        let mut patience = FIRST_TRY as f64;
-        let mut bold = false;
         for round in 0.. {
             if !self.goes_on(level, number, &standing) {
                 break;
             }
-            if !standing.near && !lands && !bold {
-                let most = patience as usize;
-                self.glide(level, &mut joint, &mut inertia, number, &standing, most);
-                patience = (patience * LATER_TRIES).min(RAREST_TRY);
-            }
-            let mut step = None;
-            if standing.near || !lands {
-                bold = last && (bold || standing.near || joint.goes_farther_than(inertia.last));
-                step = joint.round(level, standing.made, bold);
-                bold &= step.is_some_and(|step: Step| step.made > WORTHWHILE * level.lattice.pitch);
-            }
-            if step.is_some() {
-                inertia.stop(level);
-            } else if lands {
-                step = joint.land(level, standing.made);
-            }
+            let step = if lands {
+                joint.land_or_step(level, &standing)
+            } else {
+                self.approach(level, &mut joint, &mut approach, &standing, number)
+            };
             let pitch = level.lattice.pitch;
             standing.count(step.as_ref(), pitch);
             let wants_less = |way: f64| step.is_some_and(|step: Step| step.wants_less_than(way));
@@ -153,6 +144,34 @@ impl Run<'_> {
             }
         }
         standing.remaining
+    }
+
+    /// Goes on with inertia while rest is not near, and tries a joint step.
+    fn approach(
+        &mut self,
+        level: &mut Level<'_>,
+        joint: &mut Joint,
+        approach: &mut Approach,
+        standing: &Standing,
+        number: usize,
+    ) -> Option<Step> {
+        let Approach {
+            inertia,
+            patience,
+            bold,
+        } = approach;
+        if !standing.near && !*bold {
+            self.glide(level, joint, inertia, number, standing, *patience as usize);
+            *patience = (*patience * LATER_TRIES).min(RAREST_TRY);
+        }
+        let last = number + 1 == self.levels;
+        *bold = last && (*bold || standing.near || joint.goes_farther_than(inertia.last));
+        let step = joint.round(level, standing.made, *bold);
+        *bold &= step.is_some_and(|step| step.made > WORTHWHILE * level.lattice.pitch);
+        if step.is_some() {
+            inertia.stop(level);
+        }
+        step
     }
 
     /// Carries the holds to where they belong, a part of a pitch at a time.
@@ -255,6 +274,15 @@ impl Run<'_> {
     }
 }
 
+/// How a cloth that has landed comes near rest.
+struct Approach {
+    inertia: Inertia,
+    /// Steps with inertia before the next joint step is tried.
+    patience: f64,
+    /// Whether bold joint steps are what takes it farthest.
+    bold: bool,
+}
+
 impl Standing {
     fn new(level: &Level<'_>) -> Self {
         Self {
@@ -313,6 +341,14 @@ impl Joint {
         let way = 0.8 * level.lattice.pitch;
         self.sight = (3.0 * made).clamp(0.02 * level.lattice.pitch, way);
         level.look(way, self.sight);
+    }
+
+    /// A joint step of a cloth that is near rest, or one of a landing.
+    fn land_or_step(&mut self, level: &mut Level<'_>, standing: &Standing) -> Option<Step> {
+        let near = standing
+            .near
+            .then(|| self.round(level, standing.made, false));
+        near.flatten().or_else(|| self.land(level, standing.made))
     }
 
     /// A step of a cloth that comes down, after sweeps that feel how bodies press.
