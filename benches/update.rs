@@ -2,96 +2,87 @@
 //!
 //! The square hangs by two corners and is swept from the flat start, where every move is long
 //! enough to be checked: each visit finds the forces twice. One item is one update of one node.
-//! Setting up is in the time of the 40 sweeps; `setting_up` is what they take without a sweep.
+//! Setting up is in the time of the 40 sweeps; "setting up" is what they take without a sweep.
 
+#[path = "../examples/bench/hang.rs"]
+mod hang;
 #[path = "../examples/bench/square.rs"]
 mod square;
 
 use divan::{Bencher, counter::ItemsCount};
+use hang::hang;
 use soen::{
     forces::Laws,
-    math::{Vec2, Vec3},
-    solver::{Grip, Hold, Problem, sweeps},
+    math::Vec3,
+    solver::{Problem, sweeps},
 };
-use square::{Crew, Tried, square};
+use square::{Crew, Tried};
+use std::fmt::{Display, Formatter, Result};
 
 const SIDES: [u32; 3] = [65, 129, 257];
 const THREADS: [usize; 2] = [1, 2];
 const SWEEPS: usize = 40;
 
 fn main() -> Tried<()> {
-    let problem = hang(65, Laws::default())?;
+    let problem = hang(65)?;
     let swept = |threads| Crew::of(threads).map(|crew| crew.run(|| sweeps(&problem, 3)));
     assert_eq!(swept(1)??, swept(2)??, "threads change the result");
     divan::main();
     Ok(())
 }
 
-#[divan::bench(args = SIDES, consts = THREADS, sample_count = 3, sample_size = 1)]
-fn all_laws<const N: usize>(bencher: Bencher<'_, '_>, nodes: u32) {
-    measure(bencher, N, nodes, SWEEPS, Laws::default());
+/// Which laws act, for so many sweeps of N × N nodes.
+#[derive(Clone, Copy)]
+struct Work {
+    name: &'static str,
+    laws: Laws,
+    count: usize,
+    nodes: u32,
 }
 
-#[divan::bench(args = SIDES, consts = THREADS, sample_count = 3, sample_size = 1)]
-fn tension_alone<const N: usize>(bencher: Bencher<'_, '_>, nodes: u32) {
-    let laws = Laws {
-        tension: true,
-        ..NONE
+impl Display for Work {
+    fn fmt(&self, to: &mut Formatter<'_>) -> Result {
+        write!(to, "{}, N = {}", self.name, self.nodes)
+    }
+}
+
+fn works() -> Vec<Work> {
+    let only = |[tension, bending, shear]: [bool; 3]| Laws {
+        tension,
+        bending,
+        shear,
     };
-    measure(bencher, N, nodes, SWEEPS, laws);
-}
-
-#[divan::bench(args = SIDES, consts = THREADS, sample_count = 3, sample_size = 1)]
-fn bending_alone<const N: usize>(bencher: Bencher<'_, '_>, nodes: u32) {
-    let laws = Laws {
-        bending: true,
-        ..NONE
+    let kinds = [
+        ("all laws", Laws::default(), SWEEPS),
+        ("tension", only([true, false, false]), SWEEPS),
+        ("bending", only([false, true, false]), SWEEPS),
+        ("shear", only([false, false, true]), SWEEPS),
+        ("setting up", Laws::default(), 0),
+    ];
+    let of = |(name, laws, count)| {
+        SIDES.map(|nodes| Work {
+            name,
+            laws,
+            count,
+            nodes,
+        })
     };
-    measure(bencher, N, nodes, SWEEPS, laws);
+    kinds.into_iter().flat_map(of).collect()
 }
 
-#[divan::bench(args = SIDES, consts = THREADS, sample_count = 3, sample_size = 1)]
-fn shear_alone<const N: usize>(bencher: Bencher<'_, '_>, nodes: u32) {
-    let laws = Laws {
-        shear: true,
-        ..NONE
+#[divan::bench(args = works(), consts = THREADS, sample_count = 3, sample_size = 1)]
+fn update<const N: usize>(bencher: Bencher<'_, '_>, work: Work) {
+    let problem = Problem {
+        laws: work.laws,
+        ..hang(work.nodes).unwrap()
     };
-    measure(bencher, N, nodes, SWEEPS, laws);
-}
-
-#[divan::bench(args = SIDES, consts = THREADS, sample_count = 3, sample_size = 1)]
-fn setting_up<const N: usize>(bencher: Bencher<'_, '_>, nodes: u32) {
-    measure(bencher, N, nodes, 0, Laws::default());
-}
-
-const NONE: Laws = Laws {
-    tension: false,
-    bending: false,
-    shear: false,
-};
-
-fn measure(bencher: Bencher<'_, '_>, threads: usize, nodes: u32, count: usize, laws: Laws) {
-    let problem = hang(nodes, laws).unwrap();
-    let updates = nodes as usize * nodes as usize * count.max(1);
-    let crew = Crew::of(threads).unwrap();
-    let bencher = bencher.counter(ItemsCount::new(updates));
+    let nodes = work.nodes as usize;
+    let crew = Crew::of(N).unwrap();
+    let bencher = bencher.counter(ItemsCount::new(nodes * nodes * work.count.max(1)));
     bencher.bench_local(|| {
-        let at = crew.run(|| sweeps(&problem, count)).unwrap();
-        check(&problem, &at, count);
+        let at = crew.run(|| sweeps(&problem, work.count)).unwrap();
+        check(&problem, &at, work.count);
     });
-}
-
-fn hang(nodes: u32, laws: Laws) -> Tried<Problem> {
-    let corner = |x| Hold {
-        grip: Grip::Point(Vec2::new(x, 50.0)),
-        clamp: false,
-        carry: Vec3::zeros(),
-    };
-    Ok(Problem {
-        holds: vec![corner(-50.0), corner(50.0)],
-        laws,
-        ..square(nodes)?
-    })
 }
 
 /// All nodes are somewhere; the two that are held are where they were, the others have sunk.

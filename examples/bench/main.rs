@@ -1,6 +1,6 @@
 //! Measures what a sweep and a certificate cost on this machine, and what rapier's cloth does, and
 //! prints a table of each:
-//! `cargo run --release --example bench -- [updates|certificate|rapier] [most nodes a side]`.
+//! `cargo run --release --example bench -- [updates|certificate|farther|rapier] [most nodes a side]`.
 //!
 //! The work is always the same: a square of fabric C, 1 m a side, with N × N nodes, either held at
 //! two corners ("hang") or laid on a ball of radius 25 cm ("ball"). A figure of `updates` is the
@@ -9,13 +9,15 @@
 #![allow(clippy::print_stdout, reason = "a program that prints")]
 
 mod engine;
+mod hang;
 mod square;
 
+use hang::hang;
 use peak_alloc::PeakAlloc;
 use soen::{
     body::{Bodies, Part, Shape},
-    math::{Pose, Vec2, Vec3},
-    solver::{Grip, Hold, Problem, Settings, settle, sweeps},
+    math::Pose,
+    solver::{Problem, Settings, Settled, settle, sweeps},
 };
 use square::{Crew, Tried, square};
 use std::{error::Error, time::Instant};
@@ -24,7 +26,15 @@ use std::{error::Error, time::Instant};
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-const MODES: [&str; 3] = ["updates", "certificate", "rapier"];
+const MODES: [&str; 4] = ["updates", "certificate", "farther", "rapier"];
+
+type Work = fn(u32) -> Tried<Problem>;
+
+/// The works, and how many nodes a side they have.
+const WORKS: [(&str, Work); 2] = [("ball", ball), ("hang", hang)];
+const SIDES: [u32; 5] = [33, 65, 129, 257, 513];
+/// When a certificate is given up [s].
+const PATIENCE: f64 = 3000.0;
 
 fn main() -> Tried<()> {
     let mut what = "all".to_owned();
@@ -45,24 +55,15 @@ fn main() -> Tried<()> {
     if asked("certificate") {
         certificates(most)?;
     }
+    if asked("farther") {
+        farther(most)?;
+    }
     if asked("rapier") {
         let sides = [33, 65].into_iter().filter(|nodes| *nodes <= most);
         let works: Tried<Vec<_>> = sides.map(|nodes| Ok((nodes, ball(nodes)?))).collect();
         engine::compare(&works?)?;
     }
     Ok(())
-}
-
-fn hang(nodes: u32) -> Tried<Problem> {
-    let corner = |x| Hold {
-        grip: Grip::Point(Vec2::new(x, 50.0)),
-        clamp: false,
-        carry: Vec3::zeros(),
-    };
-    Ok(Problem {
-        holds: vec![corner(-50.0), corner(50.0)],
-        ..square(nodes)?
-    })
 }
 
 fn ball(nodes: u32) -> Tried<Problem> {
@@ -121,20 +122,13 @@ fn certificates(most: u32) -> Tried<()> {
         "  work     N   nodes  seconds  sweeps on the finest  joint steps  updates in finest sweeps  \
          bytes a node at most"
     );
-    let sides = [33, 65, 129, 257, 513];
-    for (name, work) in [("ball", ball as fn(u32) -> Tried<Problem>), ("hang", hang)] {
-        for nodes in sides.into_iter().filter(|nodes| *nodes <= most) {
+    for (name, work) in WORKS {
+        for nodes in SIDES.into_iter().filter(|nodes| *nodes <= most) {
             let problem = work(nodes)?;
             let before = MEMORY.current_usage();
             MEMORY.reset_peak_usage();
             let begin = Instant::now();
-            let settings = Settings {
-                tolerance: 1e-3,
-                frames: 0,
-            };
-            let settled = settle(&problem, &settings, &mut |_| {
-                begin.elapsed().as_secs_f64() < 3000.0
-            })?;
+            let settled = settled(&problem, 1e-3)?;
             let seconds = begin.elapsed().as_secs_f64();
             let bytes = MEMORY.peak_usage() - before;
             let Some(finest) = settled.levels.last() else {
@@ -147,11 +141,46 @@ fn certificates(most: u32) -> Tried<()> {
                 finest.sweeps,
                 settled.node_updates as f64 / finest.nodes as f64,
                 bytes as f64 / finest.nodes as f64,
-                if settled.converged {
-                    ""
-                } else {
-                    "   NOT certified"
-                },
+                unless_certified(&settled),
+            );
+        }
+    }
+    Ok(())
+}
+
+fn settled(problem: &Problem, tolerance: f64) -> Tried<Settled> {
+    let begin = Instant::now();
+    let settings = Settings {
+        tolerance,
+        frames: 0,
+    };
+    Ok(settle(problem, &settings, &mut |_| {
+        begin.elapsed().as_secs_f64() < PATIENCE
+    })?)
+}
+
+fn unless_certified(settled: &Settled) -> &'static str {
+    if settled.converged {
+        ""
+    } else {
+        "   NOT certified"
+    }
+}
+
+/// How far the drape of 1e-3 is from where the same run, carried on to 1e-6, ends.
+fn farther(most: u32) -> Tried<()> {
+    println!("From the certificate at 1e-3 to that at 1e-6");
+    println!("  work     N  farthest node [cm]");
+    for (name, work) in WORKS {
+        for nodes in SIDES.into_iter().filter(|nodes| *nodes <= most) {
+            let problem = work(nodes)?;
+            let stopped = settled(&problem, 1e-3)?;
+            let rest = settled(&problem, 1e-6)?;
+            let ways = stopped.positions.iter().zip(&rest.positions);
+            let farthest = ways.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+            println!(
+                "  {name} {nodes:5} {farthest:19.1e}{}",
+                unless_certified(&rest)
             );
         }
     }

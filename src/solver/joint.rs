@@ -39,7 +39,7 @@ const NEAR: f64 = 0.5;
 const STEPS_IN_TIME: f64 = 30.0;
 /// Most steps of a finish, and the move [cm] that ends it.
 const FINISHING: usize = 6;
-pub(super) const FINISHED: f64 = 1e-5;
+const FINISHED: f64 = 1e-5;
 /// Corrections after a joint step.
 const CORRECTIONS: usize = 3;
 /// All nodes are damped tenfold at most so often for a matrix that has no answer.
@@ -68,8 +68,9 @@ pub(super) struct Step {
     pub(super) asked: f64,
     /// Longest move made [cm].
     pub(super) made: f64,
-    /// Whether it was taken by the exact, undamped stiffness, and that is positive definite: the
-    /// shape is stable.
+    /// Whether it was taken by the exact, undamped stiffness, and no negative direction was met. A
+    /// bold step searches roughly; what it leaves is for [`Joint::finish`] and the last look for a
+    /// way out.
     pub(super) exact: bool,
     /// Whether no more than one node in a hundred was damped, so that what was asked for is what
     /// the cloth wants.
@@ -260,13 +261,16 @@ impl Joint {
         way_out(&leader, &exact, &level.any_forces())
     }
 
-    /// Steps on with the touches as they were last seen, where nothing but smooth laws is left and
-    /// steps converge quadratically.
-    pub(super) fn finish(&mut self, level: &mut Level<'_>) {
+    /// Steps on from one that asked for so much [cm], with the touches as they were last seen, where
+    /// nothing but smooth laws is left and steps converge quadratically.
+    pub(super) fn finish(&mut self, level: &mut Level<'_>, mut asked: f64) {
         for _ in 0..FINISHING {
+            if asked <= FINISHED {
+                break;
+            }
             match self.step(level, false) {
-                Some(step) if step.asked > FINISHED => (),
-                _ => break,
+                Some(step) => asked = step.asked,
+                None => break,
             }
         }
     }

@@ -4,7 +4,7 @@ use super::{
     Progress, Settings,
     film::Film,
     inertia::Inertia,
-    joint::{FINISHED, Joint, Step},
+    joint::{Joint, Step},
     level::Level,
     model::longest,
     start::Start,
@@ -131,8 +131,8 @@ impl Run<'_> {
             if !last {
                 continue;
             }
-            if standing.settled_for > 1 && step.asked > FINISHED {
-                joint.finish(level);
+            if standing.settled_for > 1 {
+                joint.finish(level, step.asked);
             }
             standing.go_to(&level.at, &step, level.touches.list().is_empty());
             if self.is_settled(level, case, &mut standing, round) {
