@@ -67,6 +67,7 @@ fn over(bodies: Bodies) -> Result<Problem, Box<dyn Error>> {
             centre: Vec3::new(middle.x, middle.y, high.z + 1.0),
             x_axis: Vec3::x(),
             y_axis: Vec3::y(),
+            curl: 0.0,
         },
         holds: vec![],
         bodies,

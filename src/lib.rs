@@ -21,7 +21,7 @@
 //! let centre = Vec3::new(0.0, 0.0, 6.0);
 //! let problem = Problem {
 //!     piece: Piece { outline: Outline::disc(8.0)?, grain: 0.0, pitch: 2.0 },
-//!     placement: Placement { centre, x_axis: Vec3::x(), y_axis: Vec3::y() },
+//!     placement: Placement { centre, x_axis: Vec3::x(), y_axis: Vec3::y(), curl: 0.0 },
 //!     holds: vec![],
 //!     bodies: Bodies::new(vec![ball]),
 //!     friction: fabric.friction.body,
@@ -78,6 +78,9 @@ pub mod contact;
 // Rest, and the proof of it.
 pub mod certificate;
 pub mod solver;
+
+// What a textile laboratory does with it.
+pub mod lab;
 
 // In and out.
 pub mod scene;

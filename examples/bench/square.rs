@@ -24,6 +24,7 @@ pub(crate) fn square(nodes: u32) -> Tried<Problem> {
             centre: Vec3::new(0.0, 0.0, 26.0),
             x_axis: Vec3::x(),
             y_axis: Vec3::y(),
+            curl: 0.0,
         },
         holds: vec![],
         bodies: Bodies::default(),

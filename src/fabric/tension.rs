@@ -143,7 +143,7 @@ impl Tension {
 
     /// The least strain S ≥ 0 with T(S) = `tension` [gf/cm]; infinite where the law never gets
     /// there.
-    fn strain_at(&self, tension: f64) -> f64 {
+    pub fn strain_at(&self, tension: f64) -> f64 {
         match self {
             Self::Power { a, b } => libm::pow(tension / a, 1.0 / (b + 1.0)),
             Self::Linear { modulus } => tension / modulus,

@@ -103,6 +103,7 @@ pub(super) fn placement(at: &At<'_>, cloth: &ClothTable) -> Result<Placement, Sc
         centre: at.key("centre_cm").numbers(centre, &PLACE)?.into(),
         x_axis,
         y_axis,
+        curl: 0.0,
     })
 }
 

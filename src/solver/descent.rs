@@ -177,7 +177,13 @@ fn finish(
     remaining: f64,
 ) -> Settled {
     let certificate = certify(case, &level.at, settings.tolerance, remaining);
+    let pulls = level.sheet.forces(&level.at).into_iter();
+    let held = case.held.iter();
+    let holding = pulls
+        .zip(held)
+        .map(|(pull, held)| if *held { -pull } else { Vec3::zeros() });
     Settled {
+        holding: holding.collect(),
         lattice: level.lattice.clone(),
         contact: level.touches.loads(&level.at),
         converged: certificate.holds(settings.tolerance),

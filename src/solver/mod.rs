@@ -39,6 +39,30 @@ pub struct Placement {
     pub x_axis: Vec3,
     /// The outline's y axis in space, of length 1, at a right angle to x.
     pub y_axis: Vec3,
+    /// Curvature that the cloth is rolled up with, about the y axis and towards x × y [rad/cm]; 0
+    /// where it starts flat.
+    pub curl: f64,
+}
+
+impl Placement {
+    /// Where a point in outline coordinates [cm] starts.
+    #[must_use]
+    pub fn at(&self, outline: Vec2) -> Vec3 {
+        if self.curl == 0.0 {
+            return self.centre + self.x_axis * outline.x + self.y_axis * outline.y;
+        }
+        let (sine, cosine) = libm::sincos(self.curl * outline.x);
+        let rolled = self.x_axis * sine + self.x_axis.cross(&self.y_axis) * (1.0 - cosine);
+        self.centre + rolled / self.curl + self.y_axis * outline.y
+    }
+
+    /// The direction in space of a direction of the outline, at a point of it [cm].
+    #[must_use]
+    pub fn along(&self, direction: Vec2, outline: Vec2) -> Vec3 {
+        let (sine, cosine) = libm::sincos(self.curl * outline.x);
+        let along_x = self.x_axis * cosine + self.x_axis.cross(&self.y_axis) * sine;
+        along_x * direction.x + self.y_axis * direction.y
+    }
 }
 
 /// What a hold takes.
@@ -166,6 +190,8 @@ pub struct Settled {
     pub positions: Vec<Vec3>,
     /// Normal force of the bodies on each node [gf].
     pub contact: Vec<f64>,
+    /// Force that keeps each held node in its place [gf]; zero on free ones.
+    pub holding: Vec<Vec3>,
     /// The proof of rest.
     pub certificate: Certificate,
     /// Whether all of the certificate holds at the tolerance.

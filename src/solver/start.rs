@@ -1,4 +1,4 @@
-//! Where a drape begins: the flat cloth in its place, its holds, and a breath of disorder.
+//! Where a drape begins: the flat or rolled cloth in its place, its holds, and a breath of disorder.
 
 use super::{Grip, Problem, Unsolvable, level::stopped};
 use crate::{
@@ -12,7 +12,7 @@ use crate::{
 /// The problem on one lattice.
 #[derive(Clone, Debug)]
 pub(super) struct Start {
-    /// Positions of the flat cloth [cm].
+    /// Positions of the cloth as it was laid out [cm].
     pub(super) at: Vec<Vec3>,
     /// Which nodes are held.
     pub(super) held: Vec<bool>,
@@ -26,16 +26,12 @@ pub(super) struct Start {
 const DISORDER: f64 = 1e-3;
 
 impl Start {
-    /// Lays the flat cloth out and takes hold of it.
+    /// Lays the cloth out and takes hold of it.
     pub(super) fn new(problem: &Problem, lattice: &Lattice) -> Result<Self, Unsolvable> {
-        let place = &problem.placement;
         let at = lattice
             .coordinates
             .iter()
-            .map(|cloth| {
-                let flat = problem.piece.to_outline(*cloth);
-                place.centre + place.x_axis * flat.x + place.y_axis * flat.y
-            })
+            .map(|cloth| problem.placement.at(problem.piece.to_outline(*cloth)))
             .collect();
         let nodes = lattice.coordinates.len();
         let mut start = Self {
@@ -53,17 +49,17 @@ impl Start {
                 }
             }
         }
-        start.clamp(lattice, &clamped);
+        start.clamp(problem, lattice, &clamped);
         Ok(start)
     }
 
     /// Keeps the slope of every rod that leaves a clamped hold.
-    fn clamp(&mut self, lattice: &Lattice, clamped: &[bool]) {
+    fn clamp(&mut self, problem: &Problem, lattice: &Lattice, clamped: &[bool]) {
         for rod in &lattice.rods {
             let [a, b] = rod.nodes;
             for [held, next] in [[a, b], [b, a]] {
                 if clamped[held as usize] && !self.held[next as usize] {
-                    let along = self.at[next as usize] - self.at[held as usize];
+                    let along = slope(problem, lattice, [held, next]);
                     self.clamps.push(Clamp {
                         nodes: [held, next],
                         slope: along / along.norm(),
@@ -140,6 +136,17 @@ impl Start {
             }
             *position = stopped(&problem.bodies, position, to);
         }
+    }
+}
+
+/// The direction in which the cloth leaves one node towards the next at the start.
+fn slope(problem: &Problem, lattice: &Lattice, nodes: [u32; 2]) -> Vec3 {
+    let piece = &problem.piece;
+    let [from, to] = nodes.map(|node| piece.to_outline(lattice.coordinates[node as usize]));
+    if problem.placement.curl == 0.0 {
+        problem.placement.at(to) - problem.placement.at(from)
+    } else {
+        problem.placement.along(to - from, from)
     }
 }
 

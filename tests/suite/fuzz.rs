@@ -120,6 +120,7 @@ fn read(scene: &[u8], fabric: &[u8], body: &[u8]) -> Result<(), TestCaseError> {
                 centre,
                 x_axis,
                 y_axis,
+                ..
             } = problem.placement;
             prop_assert!(centre.iter().all(|x| x.is_finite()));
             prop_assert!(x_axis.dot(&y_axis).abs() < 1e-5);

@@ -1,0 +1,118 @@
+//! The slope: a cloth on an inclined plane, which is raised until the cloth slides.
+
+use super::{
+    LabError, Reading, Rest, Watch,
+    reading::{figures, within},
+    specimen::cloth,
+};
+use crate::{
+    body::{Bodies, Part, Shape},
+    fabric::Fabric,
+    lattice::Outline,
+    math::{Pose, Vec3},
+};
+use nalgebra::{Translation3, UnitQuaternion};
+
+/// A square of cloth, and the friction of the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slope {
+    /// Coulomb friction between cloth and plane [-].
+    pub friction: f64,
+    /// Side of the square [cm].
+    pub size: f64,
+    /// Pitch of the lattice [cm].
+    pub pitch: f64,
+}
+
+/// Where the cloth began to slide.
+#[derive(Clone, Debug)]
+pub struct Slid {
+    /// Steepest slope on which it still lies [°].
+    pub angle: f64,
+    /// tan of that angle [-].
+    pub friction: f64,
+    /// The cloth on that slope.
+    pub rest: Rest,
+}
+
+/// The steepest slope is found to within this [°].
+const WITHIN: f64 = 0.02;
+/// A cloth that lies still does so after fewer rounds.
+const ROUNDS: usize = 60;
+/// Thickness of the plane [cm].
+const THICK: f64 = 10.0;
+
+impl Slope {
+    /// Raises the plane, halving between lying and sliding.
+    ///
+    /// # Errors
+    /// [`LabError`] where a setting is out of range, or the cloth slides on any slope.
+    pub fn run(&self, fabric: &Fabric, watch: Watch<'_>) -> Result<Slid, LabError> {
+        within("friction [-]", self.friction, 0.01, 2.0)?;
+        within("size [cm]", self.size, 1.0, 50.0)?;
+        within("pitch [cm]", self.pitch, self.size / 50.0, 0.5 * self.size)?;
+        let (mut low, mut high) = (0.0, 80.0);
+        let mut found = None;
+        while high - low > WITHIN {
+            let middle = 0.5 * (low + high);
+            let rest = self.lie(fabric, middle, watch)?;
+            if rest.settled.converged {
+                found = Some(rest);
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let rest = found.ok_or(LabError::NotFound {
+            what: "a slope [deg] that the cloth lies on",
+            low,
+            high,
+        })?;
+        let friction = libm::tan(low.to_radians());
+        Ok(Slid {
+            angle: low,
+            friction,
+            rest,
+        })
+    }
+
+    /// The cloth laid on a slope.
+    fn lie(&self, fabric: &Fabric, degrees: f64, watch: Watch<'_>) -> Result<Rest, LabError> {
+        let wide = 6.0 * self.size;
+        let plane = Shape::Cuboid {
+            size: Vec3::new(wide, wide, THICK),
+        };
+        let turn = UnitQuaternion::from_axis_angle(&Vec3::y_axis(), degrees.to_radians());
+        let down = turn * Vec3::new(0.0, 0.0, -0.5 * THICK);
+        let pose = Pose::from_parts(Translation3::from(down), turn);
+        let outline = Outline::rectangle(self.size, self.size)?;
+        let above = turn * Vec3::new(0.0, 0.0, 0.5 * fabric.thickness + 0.01);
+        let mut problem = cloth(fabric, outline, self.pitch, above);
+        problem.placement.x_axis = turn * Vec3::x();
+        problem.bodies = Bodies::new(vec![Part::new("plane".into(), &plane, pose)?]);
+        problem.friction = self.friction;
+        let mut left = ROUNDS;
+        Rest::within(problem, 1e-3, &mut |progress| {
+            left = left.saturating_sub(1);
+            left > 0 && watch(progress)
+        })
+    }
+}
+
+impl Slid {
+    /// What the instrument shows.
+    #[must_use]
+    pub fn reading(self, test: &Slope) -> Reading {
+        Reading {
+            instrument: "slope",
+            figures: figures([
+                ("sliding_angle_deg", self.angle),
+                ("friction", self.friction),
+                ("friction_given", test.friction),
+            ]),
+            trace: None,
+            certified: self.rest.settled.converged,
+            rest: Some(self.rest),
+        }
+    }
+}

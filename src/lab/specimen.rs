@@ -1,0 +1,163 @@
+//! Specimens: a strip, how it is held, and how it comes to rest.
+
+use super::{LabError, Watch};
+use crate::{
+    body::Bodies,
+    fabric::{Fabric, Yarn},
+    forces::Laws,
+    lattice::{Edge, Outline, Piece},
+    math::{Vec2, Vec3},
+    solver::{ForceModel, Grip, Hold, Placement, Problem, Settings, Settled, settle},
+};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+/// Which way a strip's length runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cut {
+    /// Along the warp.
+    Warp,
+    /// Along the weft.
+    Weft,
+    /// At 45° to both.
+    Bias,
+}
+
+impl Cut {
+    /// Angle of the warp against the strip's length [rad].
+    #[must_use]
+    pub fn grain(self) -> f64 {
+        match self {
+            Self::Warp => 0.0,
+            Self::Weft => FRAC_PI_2,
+            Self::Bias => FRAC_PI_4,
+        }
+    }
+}
+
+impl From<Yarn> for Cut {
+    fn from(yarn: Yarn) -> Self {
+        match yarn {
+            Yarn::Warp => Self::Warp,
+            Yarn::Weft => Self::Weft,
+        }
+    }
+}
+
+/// Instruments read shapes that are this near to rest [-].
+const TOLERANCE: f64 = 1e-6;
+
+/// A specimen at rest, or as near as it came.
+#[derive(Clone, Debug)]
+pub struct Rest {
+    /// What was solved.
+    pub problem: Problem,
+    /// What came of it.
+    pub settled: Settled,
+}
+
+impl Rest {
+    /// Brings a specimen to rest.
+    pub(super) fn of(problem: Problem, watch: Watch<'_>) -> Result<Self, LabError> {
+        Self::within(problem, TOLERANCE, watch)
+    }
+
+    /// Brings a specimen to rest within a tolerance [-].
+    pub(super) fn within(
+        problem: Problem,
+        tolerance: f64,
+        watch: Watch<'_>,
+    ) -> Result<Self, LabError> {
+        let frames = 0;
+        let settings = Settings { tolerance, frames };
+        let settled = settle(&problem, &settings, watch)?;
+        Ok(Self { problem, settled })
+    }
+
+    /// The nodes of an edge of the specimen.
+    pub(super) fn edge(&self, edge: Edge) -> Vec<usize> {
+        let nodes = self.problem.piece.edge_nodes(&self.settled.lattice, edge);
+        nodes.into_iter().map(|node| node as usize).collect()
+    }
+
+    /// The middle of an edge of the specimen [cm].
+    pub(super) fn middle(&self, edge: Edge) -> Vec3 {
+        let nodes = self.edge(edge);
+        let sum: Vec3 = nodes.iter().map(|node| self.settled.positions[*node]).sum();
+        sum / nodes.len().max(1) as f64
+    }
+
+    /// The force that keeps an edge in its place [gf].
+    pub(super) fn pull(&self, edge: Edge) -> Vec3 {
+        let nodes = self.edge(edge);
+        nodes.iter().map(|node| self.settled.holding[*node]).sum()
+    }
+
+    /// The middle line of a strip, from its start to its end [cm].
+    pub(super) fn line(&self) -> Vec<Vec3> {
+        let outline = |node: &usize| {
+            let coordinates = &self.settled.lattice.coordinates;
+            self.problem.piece.to_outline(coordinates[*node])
+        };
+        let pitch = self.settled.lattice.pitch;
+        let near_middle = |at: Vec2| at.y.abs() < 0.26 * pitch;
+        let nodes = 0..self.settled.positions.len();
+        let mut line: Vec<usize> = nodes.filter(|node| near_middle(outline(node))).collect();
+        line.sort_by(|a, b| outline(a).x.total_cmp(&outline(b).x));
+        line.iter()
+            .map(|node| self.settled.positions[*node])
+            .collect()
+    }
+}
+
+/// A strip of so many [cm] along x and across, lying level from the origin along x.
+pub(super) fn strip(
+    fabric: &Fabric,
+    cut: Cut,
+    [length, width]: [f64; 2],
+    pitch: f64,
+) -> Result<Problem, LabError> {
+    let outline = Outline::rectangle(length, width)?;
+    let mut problem = cloth(fabric, outline, pitch, Vec3::x() * (0.5 * length));
+    problem.piece.grain = cut.grain();
+    Ok(problem)
+}
+
+/// A piece of cloth on grain, lying level about a centre [cm]; nothing holds it yet.
+pub(super) fn cloth(fabric: &Fabric, outline: Outline, pitch: f64, centre: Vec3) -> Problem {
+    Problem {
+        fabric: fabric.clone(),
+        piece: Piece {
+            outline,
+            grain: 0.0,
+            pitch,
+        },
+        placement: Placement {
+            centre,
+            x_axis: Vec3::x(),
+            y_axis: Vec3::y(),
+            curl: 0.0,
+        },
+        holds: Vec::new(),
+        bodies: Bodies::default(),
+        friction: fabric.friction.body,
+        thickness: fabric.thickness,
+        laws: Laws::default(),
+        forces: ForceModel::Lattice,
+        seed: 1,
+    }
+}
+
+/// A hand on an edge.
+pub(super) fn hold(edge: Edge, clamp: bool, carry: Vec3) -> Hold {
+    let grip = Grip::Edge(edge);
+    Hold { grip, clamp, carry }
+}
+
+/// The cloth without weight: a machine shows forces with the specimen's own weight taken off.
+pub(super) fn tared(fabric: &Fabric) -> Fabric {
+    let weight = 0.0;
+    Fabric {
+        weight,
+        ..fabric.clone()
+    }
+}
