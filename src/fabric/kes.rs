@@ -75,6 +75,8 @@ impl KesSheet {
             weight: self.w / 1000.0,
             thickness: self.t / 10.0,
             friction,
+            // KES-F has no test of twist.
+            twist: 0.0,
             warp: self.warp.direction(),
             weft: self.weft.direction(),
         }

@@ -14,6 +14,8 @@ pub enum Quantity {
     BodyFriction,
     /// Friction coefficient against cloth.
     ClothFriction,
+    /// Twisting moment per width and twist.
+    Twist,
     /// Factor A of the power law (1).
     PowerFactor(Yarn),
     /// Exponent B of the power law (1).
@@ -49,7 +51,7 @@ impl Quantity {
             Self::PowerFactor(_) => 1e-3..=1e12,
             Self::PowerExponent(_) => 0.0..=10.0,
             Self::LinearModulus(_) => 1e-3..=1e9,
-            Self::Bending(_) => 0.0..=1e4,
+            Self::Bending(_) | Self::Twist => 0.0..=1e4,
             Self::Shear(_) => 0.0..=1e6,
         }
     }
@@ -60,7 +62,7 @@ impl Quantity {
             Self::Weight => "gf/cm²",
             Self::Thickness => "cm",
             Self::PowerFactor(_) | Self::LinearModulus(_) | Self::Shear(_) => "gf/cm",
-            Self::Bending(_) => "gf·cm",
+            Self::Bending(_) | Self::Twist => "gf·cm",
             Self::BodyFriction | Self::ClothFriction | Self::PowerExponent(_) => "",
         }
     }
@@ -80,6 +82,7 @@ impl fmt::Display for Quantity {
             Self::Thickness => f.write_str("thickness"),
             Self::BodyFriction => f.write_str("friction against a body"),
             Self::ClothFriction => f.write_str("friction against cloth"),
+            Self::Twist => f.write_str("twist"),
             Self::PowerFactor(yarn) => write!(f, "{yarn} tension factor A"),
             Self::PowerExponent(yarn) => write!(f, "{yarn} tension exponent B"),
             Self::LinearModulus(yarn) => write!(f, "{yarn} tension modulus"),
@@ -100,6 +103,7 @@ impl Fabric {
             (Quantity::Thickness, self.thickness),
             (Quantity::BodyFriction, self.friction.body),
             (Quantity::ClothFriction, self.friction.cloth),
+            (Quantity::Twist, self.twist),
         ];
         let along = |yarn, direction| quantities_along(yarn, direction);
         let values = of_cloth
@@ -151,6 +155,7 @@ mod tests {
                 body: 0.35,
                 cloth: 0.4,
             },
+            twist: 0.0,
             warp: along(1.8e3, 1.5, 0.0057, 0.0),
             weft: along(8.1e5, 2.5, 0.0025, 0.5),
         }
@@ -173,11 +178,12 @@ mod tests {
 
     #[test]
     fn every_value_is_checked_against_nan_and_infinity() {
-        let spoil: [fn(&mut Fabric, f64); 10] = [
+        let spoil: [fn(&mut Fabric, f64); 11] = [
             |f, v| f.weight = v,
             |f, v| f.thickness = v,
             |f, v| f.friction.body = v,
             |f, v| f.friction.cloth = v,
+            |f, v| f.twist = v,
             |f, v| f.warp.tension = Tension::Power { a: v, b: 1.0 },
             |f, v| f.warp.tension = Tension::Power { a: 1.0, b: v },
             |f, v| f.weft.tension = Tension::Linear { modulus: v },

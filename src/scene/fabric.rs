@@ -115,6 +115,7 @@ fn read(document: &Document) -> Result<Fabric, SceneError> {
             body: file.friction.body,
             cloth: file.friction.cloth,
         },
+        twist: file.twist_gf_cm.unwrap_or(0.0),
         warp: direction(&top.key("warp"), &file.warp)?,
         weft: direction(&top.key("weft"), &file.weft)?,
     };
@@ -175,6 +176,7 @@ fn place_of<'d>(top: &At<'d>, quantity: Quantity) -> At<'d> {
         Quantity::Thickness => top.key("thickness_cm"),
         Quantity::BodyFriction => top.key("friction").key("body"),
         Quantity::ClothFriction => top.key("friction").key("cloth"),
+        Quantity::Twist => top.key("twist_gf_cm"),
         Quantity::PowerFactor(yarn) => along(yarn).key("tension").key("a_gf_per_cm"),
         Quantity::PowerExponent(yarn) => along(yarn).key("tension").key("b"),
         Quantity::LinearModulus(yarn) => along(yarn).key("tension").key("linear_gf_per_cm"),
@@ -235,6 +237,7 @@ mod tests {
             assert_eq!(power(&fabric.warp), warp, "{name} warp");
             assert_eq!(power(&fabric.weft), weft, "{name} weft");
             assert_eq!(fabric.source, "Soen, tables 1 and 2");
+            assert_eq!(fabric.twist, 0.0, "the paper's lattice has none");
         }
     }
 
@@ -253,6 +256,13 @@ mod tests {
         assert_eq!(linear.warp.tension, Tension::Linear { modulus: 1900.0 });
         let points = of(&with_tension("{ points = [[0.0, 0.0], [0.01, 2.1]] }")).unwrap();
         assert!((points.warp.tension.tension(0.01, 0.0) - 2.1).abs() < 1e-12);
+    }
+
+    #[test]
+    fn twist_is_read_where_it_is_given() {
+        let text = swatch("c").unwrap();
+        let twisted = text.replace("[warp]", "twist_gf_cm = 0.01\n[warp]");
+        assert_eq!(of(&twisted).unwrap().twist, 0.01);
     }
 
     #[test]

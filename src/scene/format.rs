@@ -346,6 +346,8 @@ pub(super) struct FabricFile {
     pub(super) weight_gf_per_cm2: f64,
     pub(super) thickness_cm: f64,
     pub(super) friction: Table<FrictionTable>,
+    /// Twisting moment per width and twist [gf·cm]; 0 where absent, which is the paper's model.
+    pub(super) twist_gf_cm: Option<f64>,
     pub(super) warp: Table<DirectionTable>,
     pub(super) weft: Table<DirectionTable>,
 }

@@ -109,6 +109,24 @@ fn a_fabric_file_is_checked_as_strictly() {
             "shear_gf_per_cm = \"6\"",
             &["weft.shear_gf_per_cm is \"6\"; allowed: a number"],
         ),
+        (
+            "[warp]",
+            "twist_gf_cm = -0.01\n[warp]",
+            &[
+                "twist_gf_cm is -0.01; allowed: 0 to 10000 gf·cm",
+                "mine.toml:11:15:",
+            ],
+        ),
+        (
+            "[warp]",
+            "twist_gf_cm = 1e5\n[warp]",
+            &["twist_gf_cm is 1e5; allowed: 0 to 10000 gf·cm"],
+        ),
+        (
+            "shear_gf_per_cm = 6.0",
+            "shear_gf_per_cm = 6.0\ntwist_gf_cm = 0.01",
+            &["unknown key \"twist_gf_cm\" in [weft]"],
+        ),
         ("[weft]", "[woof]", &["unknown key \"woof\""]),
     ];
     let fabric = swatch("c").unwrap();
