@@ -178,6 +178,8 @@ mod tests {
             .map(|corner| corner.area)
             .sum::<f64>();
         assert!((corners / area - 1.0).abs() < 1e-12);
+        let twists = lattice.twists.iter().map(|twist| twist.area).sum::<f64>();
+        assert!((twists / area - 1.0).abs() < 1e-12, "{twists} of {area}");
         for yarn in [Yarn::Warp, Yarn::Weft] {
             let rods = lattice.rods.iter().filter(|rod| rod.yarn == yarn);
             let rods: f64 = rods.map(|rod| rod.rest * rod.width).sum();

@@ -111,6 +111,19 @@ impl Grid {
         rows.flat_map(move |row| columns.clone().map(move |column| row * across + column))
     }
 
+    /// The squares that share a side with a square.
+    pub(super) fn squares_beside(&self, square: usize) -> impl Iterator<Item = usize> {
+        let [across, along] = self.counts.map(|count| count - 1);
+        let [i, j] = [square % across, square / across];
+        let beside = [
+            (i > 0).then(|| square - 1),
+            (i + 1 < across).then_some(square + 1),
+            (j > 0).then(|| square - across),
+            (j + 1 < along).then_some(square + across),
+        ];
+        beside.into_iter().flatten()
+    }
+
     /// The nodes of a mesh, counter-clockwise.
     pub(super) fn nodes(&self, square: usize, mesh: Mesh) -> impl ExactSizeIterator<Item = usize> {
         let nodes = self.square(square);

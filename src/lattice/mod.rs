@@ -19,6 +19,7 @@ mod ring;
 #[cfg(test)]
 pub(crate) mod sample;
 mod seat;
+mod twist;
 mod weave;
 
 pub use cut::CutError;
@@ -78,6 +79,19 @@ pub struct Corner {
     pub area: f64,
 }
 
+/// A cell of four nodes; it resists twist by how far its diagonals pass each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Twist {
+    /// Its nodes, as in [`Cell`]: one diagonal joins the first and the third, the other the second
+    /// and the fourth.
+    pub nodes: [u32; 4],
+    /// Twist of the cloth over the gap between the diagonals [1/cm²]: 2 over the area, of a
+    /// rectangle.
+    pub per_gap: f64,
+    /// Area of cloth that it stands for: its own, and that of triangles beside it [cm²].
+    pub area: f64,
+}
+
 /// A mesh of the lattice: four nodes counter-clockwise in cloth coordinates,
 /// (0, 0), (1, 0), (1, 1), (0, 1) in steps of (warp, weft).
 ///
@@ -103,6 +117,8 @@ pub struct Lattice {
     pub bends: Vec<Bend>,
     /// Corners.
     pub corners: Vec<Corner>,
+    /// Cells that resist twist: those of four nodes, but for few beside the outline.
+    pub twists: Vec<Twist>,
     /// Cells.
     pub cells: Vec<Cell>,
 }

@@ -1,7 +1,8 @@
 //! From a grid to the lattice: what joins the nodes, and how much cloth each joint stands for.
 //!
 //! Every mesh hands its area out once per law: to its nodes as weight, to its rods along each yarn
-//! as rest length × width, and to its corners. So each law's shares add up to the cloth's area.
+//! as rest length × width, to its corners, and to its twist. So each law's shares add up to the
+//! cloth's area.
 //! - Of two rods along one yarn, one that runs off the grain, as beside an outline, gets the lesser
 //!   share: cloth pulled off its yarns yields by shear. ([`alignment`])
 //! - A triangle has one rod along each yarn and one corner between them, so it feels exactly the
@@ -13,6 +14,7 @@ use crate::{
         Bend, Cell, Corner, Lattice, Rod,
         grid::{Grid, Mesh},
         ring::cross,
+        twist::twists,
     },
     math::Vec2,
 };
@@ -61,6 +63,7 @@ pub(super) fn weave(grid: &Grid) -> Lattice {
         lattice.cells.extend(woven.cell(square, *mesh));
         woven.push_corners(square, *mesh, &mut lattice.corners);
     }
+    lattice.twists = twists(grid, &woven.number);
     lattice
 }
 
