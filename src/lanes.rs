@@ -248,6 +248,12 @@ impl<S: Simd> Points<S> {
     }
 
     #[inline(always)]
+    pub(crate) fn cross(self, other: Self) -> Self {
+        let ([a, b, c], [d, e, f]) = (self.0, other.0);
+        Self([b * f - c * e, c * d - a * f, a * e - b * d])
+    }
+
+    #[inline(always)]
     pub(crate) fn norm(self) -> Lanes<S> {
         self.dot(self).sqrt()
     }

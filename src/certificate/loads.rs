@@ -23,7 +23,7 @@ pub(super) struct Loads<'a> {
     pub(super) fabric: &'a Fabric,
     pub(super) laws: Laws,
     pub(super) clamps: &'a [Clamp],
-    /// Figures 7–9: bends and corners act on their own node only.
+    /// Figures 7–9: bends and corners act on their own node only, twist on none.
     pub(super) own_only: bool,
 }
 
@@ -46,6 +46,7 @@ impl Loads<'_> {
         if self.laws.bending {
             self.add_bends(at, &mut loads);
             self.add_clamps(at, &mut loads);
+            self.add_twists(at, &mut loads);
         }
         if self.laws.shear {
             self.add_corners(at, &mut loads);
@@ -97,6 +98,39 @@ impl Loads<'_> {
             let (_, second) = couple(&clamp.slope, &(at[next] - at[held]), stiffness, 0.0);
             loads[next].add(second);
             loads[held].add(-second);
+        }
+    }
+
+    /// The nodes of a twisted cell enclose a volume V, six times which is the gap h between the
+    /// diagonals times the area that they span. Each node feels that volume by the face opposite to
+    /// it, and the span, an area in their common plane, by the other diagonal.
+    fn add_twists(&self, at: &[Vec3], loads: &mut [Load]) {
+        if self.own_only || self.fabric.twist == 0.0 {
+            return;
+        }
+        for twist in &self.lattice.twists {
+            let stiffness = self.fabric.twist * twist.area * twist.per_gap * twist.per_gap;
+            let nodes = twist.nodes.map(|node| node as usize);
+            let [b, c, d] = [1, 2, 3].map(|k| at[nodes[k]] - at[nodes[0]]);
+            let faces = [c.cross(&d), d.cross(&b), b.cross(&c)];
+            let (first, second) = (c, d - b);
+            let normal = first.cross(&second);
+            let span = normal.norm();
+            if span <= 1e-9 {
+                continue;
+            }
+            let gap = b.dot(&faces[0]) / span;
+            let by_first = second.cross(&normal) * (gap / span);
+            let by_second = normal.cross(&first) * (gap / span);
+            let slopes = [
+                by_first - faces[0] - faces[1] - faces[2],
+                faces[0] + by_second,
+                faces[1] - by_first,
+                faces[2] - by_second,
+            ];
+            for (node, slope) in nodes.into_iter().zip(slopes) {
+                loads[node].add(slope * (-stiffness * gap / span));
+            }
         }
     }
 
@@ -174,13 +208,15 @@ mod tests {
         ]
     }
 
-    /// Power laws, a straight one with other numbers along the weft, and a measured curve.
+    /// Power laws, a straight one with other numbers along the weft, a measured curve, and twist.
     fn fabrics() -> Vec<Fabric> {
         let mut curved = fabric("d").unwrap();
         let curve = Curve::new(&[[0.0, 0.0], [0.01, 2.1], [0.05, 60.0]]).unwrap();
         curved.warp.tension = Tension::Points(curve);
         curved.weft.tension = Tension::Linear { modulus: 370.0 };
-        vec![fabric("a").unwrap(), fabric("c").unwrap(), curved]
+        let mut twisting = fabric("c").unwrap();
+        twisting.twist = 0.07;
+        vec![fabric("a").unwrap(), fabric("c").unwrap(), curved, twisting]
     }
 
     /// Vices on some rods of either yarn, sloping away from where the cloth leaves them.

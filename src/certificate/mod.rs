@@ -49,7 +49,7 @@ pub struct Case<'a> {
     pub fabric: &'a Fabric,
     /// The laws that act.
     pub laws: Laws,
-    /// Whether bends and corners act on their own node only (figures 7–9).
+    /// Whether bends and corners act on their own node only (figures 7–9), and twist on none.
     pub own_only: bool,
     /// Vices.
     pub clamps: &'a [Clamp],

@@ -8,11 +8,12 @@
 
 use super::{
     blocks::Blocks,
-    stencil::{BENDS, CORNERS, MOVES, ON_GRAIN, RODS, SIZE, Stencil, WEIGHT},
+    stencil::{BENDS, CORNERS, RODS, StencilsFrom, TWISTS},
+    twist::LEAST_SPAN,
 };
 use crate::{
     fabric::Fabric,
-    lanes::{Lanes, Points, Simd, WIDEST},
+    lanes::{Lanes, Points, Simd},
 };
 
 /// `θ/sin θ` in `1 − cos θ`, from 0° to 90°: Chebyshev's interpolation, within 6·10⁻¹⁰.
@@ -46,71 +47,6 @@ const SHEAR_OVER_COSINE: [f64; 9] = [
 ];
 /// Corners sheared by less than this sine (37°) need no square root.
 const NEARLY_SQUARE: f64 = 0.6;
-
-/// The stencils of eight nodes side by side.
-#[derive(Clone, Debug)]
-pub(crate) struct Stencils {
-    numbers: [[f64; WIDEST]; SIZE],
-    /// Whether no bend has an angle at rest, and every corner a right one.
-    on_grain: bool,
-}
-
-impl Stencils {
-    /// The same stencil for all.
-    pub(crate) fn alike(stencil: &Stencil) -> Self {
-        Self {
-            numbers: stencil.0.map(|number| [number; WIDEST]),
-            on_grain: stencil.0[ON_GRAIN] == 1.0,
-        }
-    }
-
-    /// One of its own for each.
-    pub(crate) fn mixed<'a>(stencils: impl Iterator<Item = &'a Stencil>) -> Self {
-        let mut all = Self::alike(&Stencil::STILL);
-        for (k, stencil) in stencils.take(WIDEST).enumerate() {
-            all.on_grain &= stencil.0[ON_GRAIN] == 1.0;
-            for (numbers, number) in all.numbers.iter_mut().zip(stencil.0) {
-                numbers[k] = number;
-            }
-        }
-        all
-    }
-
-    /// Those from one of the eight on.
-    #[inline(always)]
-    pub(crate) fn from(&self, first: usize) -> StencilsFrom<'_> {
-        StencilsFrom {
-            stencils: self,
-            first,
-        }
-    }
-}
-
-/// Some of eight stencils.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct StencilsFrom<'a> {
-    stencils: &'a Stencils,
-    first: usize,
-}
-
-impl StencilsFrom<'_> {
-    #[inline(always)]
-    fn get<S: Simd>(&self, simd: S, index: usize) -> Lanes<S> {
-        Lanes::read(simd, &self.stencils.numbers[index][self.first..])
-    }
-
-    /// 1 where a node moves, 0 where it does not.
-    #[inline(always)]
-    pub(crate) fn moves<S: Simd>(&self, simd: S) -> Lanes<S> {
-        self.get(simd, MOVES)
-    }
-
-    /// Weight of the nodes [gf].
-    #[inline(always)]
-    pub(crate) fn weight<S: Simd>(&self, simd: S) -> Lanes<S> {
-        self.get(simd, WEIGHT)
-    }
-}
 
 /// A rod from a point: its direction, its length [cm] and 1/its length [1/cm].
 #[derive(Clone, Copy)]
@@ -181,6 +117,9 @@ pub(crate) fn pulls<S: Simd, const STIFF: bool>(
         let end = |k: usize| (&arms[k], points[1 + k]);
         let ends = [end(along), end(across)];
         sum.add_quarter(CORNERS + 6 * quarter, ends, diagonal);
+    }
+    if stencils.twisting() {
+        sum.add_twists(points);
     }
     (sum.force, sum.blocks)
 }
@@ -271,7 +210,7 @@ impl<S: Simd, const STIFF: bool> Sum<'_, S, STIFF> {
         // 1/sin² θ, to the third term of its series.
         let mut factor = square.polynomial(&[1.0, 1.0, 1.0]);
         let far = cosine.abs().any_above(NEARLY_SQUARE);
-        if far || !self.stencils.stencils.on_grain {
+        if far || !self.stencils.on_grain() {
             // Which lanes take which way must not depend on which lanes stand together.
             let over_sine = self.over_sine(cosine);
             let right = Lanes::of(self.simd, core::f64::consts::FRAC_PI_2);
@@ -283,6 +222,32 @@ impl<S: Simd, const STIFF: bool> Sum<'_, S, STIFF> {
         self.force += slope * (stiffness * pull);
         if STIFF {
             self.blocks.add_square(slope, stiffness * factor);
+        }
+    }
+
+    /// The twists of the four cells about the node.
+    #[inline(always)]
+    fn add_twists(&mut self, points: &[Points<S>; 13]) {
+        for (quarter, [along, across]) in [[1, 3], [2, 3], [2, 4], [1, 4]].into_iter().enumerate() {
+            let cell = [0, along, 9 + quarter, across].map(|place| points[place]);
+            self.add_twist(TWISTS + quarter, cell);
+        }
+    }
+
+    /// Adds the twist of a cell whose first node is the node.
+    #[inline(always)]
+    fn add_twist(&mut self, at: usize, [here, along, diagonal, across]: [Points<S>; 4]) {
+        let stiffness = self.stencils.get(self.simd, at);
+        let (first, second, between) = (diagonal - here, across - along, along - here);
+        let normal = first.cross(second);
+        let one = Lanes::of(self.simd, 1.0);
+        let span = normal.dot(normal).max(Lanes::of(self.simd, LEAST_SPAN));
+        let over = one.over(span);
+        let lever = one - between.cross(second).dot(normal) * over;
+        let pull = stiffness * lever * over;
+        self.force += normal * (pull * between.dot(normal));
+        if STIFF {
+            self.blocks.add_square(normal, pull * lever);
         }
     }
 
@@ -322,7 +287,7 @@ impl<S: Simd, const STIFF: bool> Sum<'_, S, STIFF> {
     /// The same for bends, most of which are straight at rest and less than a right angle.
     #[inline(always)]
     fn bend_slope(&self, cosine: Lanes<S>, rest: Lanes<S>) -> Lanes<S> {
-        if self.stencils.stencils.on_grain && !cosine.any_below(0.0) {
+        if self.stencils.on_grain() && !cosine.any_below(0.0) {
             return -arc_over_sine(cosine);
         }
         let zero = Lanes::of(self.simd, 0.0);
@@ -344,8 +309,8 @@ mod tests {
     use super::*;
     use crate::{
         fabric::{Curve, Tension},
-        forces::{Laws, PLACES, Sheet},
-        lanes::{OneByOne, WithSimd, widest},
+        forces::{Laws, PLACES, Sheet, Stencil, Stencils},
+        lanes::{OneByOne, WIDEST, WithSimd, widest},
         lattice::{Lattice, Outline, sample::cut},
         math::{Mat3, Vec3},
         scene::fabric,
@@ -434,7 +399,10 @@ mod tests {
         let curve = Curve::new(&[[0.0, 0.0], [0.01, 2.1], [0.05, 60.0]]).unwrap();
         curved.warp.tension = Tension::Points(curve);
         curved.weft.tension = Tension::Linear { modulus: 370.0 };
-        for fabric in [fabric("a").unwrap(), fabric("c").unwrap(), curved] {
+        let mut twisting = fabric("c").unwrap();
+        twisting.twist = 0.07;
+        let fabrics = [fabric("a").unwrap(), fabric("c").unwrap(), curved, twisting];
+        for fabric in fabrics {
             for lattice in &lattices {
                 // Each law alone, and all; from nearly flat to folded over.
                 for (law, by) in (0..16).map(|k| (k / 4, [1e-4, 0.02, 0.4, 0.9][k % 4])) {

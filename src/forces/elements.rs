@@ -1,4 +1,4 @@
-//! What a sheet is made of, by the numbers of its nodes: rods, angles between rods, vices.
+//! What a sheet is made of, by the numbers of its nodes: rods, angles between rods, twists, vices.
 
 use super::Stencil;
 use crate::{fabric::Yarn, math::Vec3};
@@ -21,6 +21,13 @@ pub(super) struct SheetAngle {
     pub(super) rest: f64,
     /// A bend has its node in the middle of the path; a corner has it first.
     pub(super) bend: bool,
+}
+
+/// A cell that resists twist, with its stiffness against a gap between its diagonals [gf/cm].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SheetTwist {
+    pub(super) nodes: [u32; 4],
+    pub(super) stiffness: f64,
 }
 
 /// A clamp joint with its stiffness [gf·cm].
@@ -96,6 +103,12 @@ impl SheetAngle {
     /// Which of its nodes the angle belongs to.
     pub(super) fn own_place(&self) -> u8 {
         u8::from(self.bend)
+    }
+}
+
+impl SheetTwist {
+    pub(super) fn corners(&self, at: &[Vec3]) -> [Vec3; 4] {
+        self.nodes.map(|node| at[node as usize])
     }
 }
 

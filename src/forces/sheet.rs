@@ -3,7 +3,9 @@
 use super::{
     RodLaw, Stencil,
     angle::{turn, turn_stiffness, turn_stiffness_positive},
-    elements::{SheetAngle, SheetClamp, SheetRod},
+    elements::{SheetAngle, SheetClamp, SheetRod, SheetTwist},
+    roles::{Role, Roles},
+    twist::{twist, twist_stiffness, twist_stiffness_positive},
 };
 use crate::{
     fabric::{Fabric, Yarn},
@@ -17,7 +19,7 @@ use crate::{
 pub struct Laws {
     /// Rods pull (5).
     pub tension: bool,
-    /// Opposite rods bend (6).
+    /// Opposite rods bend (6), and cells resist twist where the fabric does.
     pub bending: bool,
     /// Corners shear (7).
     pub shear: bool,
@@ -49,14 +51,6 @@ pub struct Clamp {
     pub width: f64,
 }
 
-/// Where a node appears in an element, and as which of its nodes.
-#[derive(Clone, Copy, Debug)]
-enum Role {
-    Rod(u32, u8),
-    Angle(u32, u8),
-    Clamp(u32),
-}
-
 /// The force on a node [gf] and minus its derivative by the node's position [gf/cm].
 #[derive(Clone, Copy, Debug)]
 pub struct Pull {
@@ -72,17 +66,17 @@ pub struct Sheet<'a> {
     fabric: &'a Fabric,
     rods: Vec<SheetRod>,
     angles: Vec<SheetAngle>,
+    twists: Vec<SheetTwist>,
     clamps: Vec<SheetClamp>,
     weights: Vec<f64>,
-    roles: Vec<Role>,
-    first_role: Vec<u32>,
+    roles: Roles,
 }
 
 impl<'a> Sheet<'a> {
     /// Gives a lattice the laws of a fabric.
     #[must_use]
     pub fn new(lattice: &Lattice, fabric: &'a Fabric, laws: Laws, clamps: &[Clamp]) -> Self {
-        let rods = lattice
+        let rods: Vec<SheetRod> = lattice
             .rods
             .iter()
             .filter(|_| laws.tension)
@@ -92,7 +86,8 @@ impl<'a> Sheet<'a> {
                 rest: rod.rest,
                 width: rod.width,
                 floor: euler_load(fabric.along(rod.yarn).bending, rod.rest),
-            });
+            })
+            .collect();
         let bends = lattice
             .bends
             .iter()
@@ -114,33 +109,38 @@ impl<'a> Sheet<'a> {
                 rest: corner.rest_angle,
                 bend: false,
             });
-        let angles = bends
+        let angles: Vec<SheetAngle> = bends
             .chain(corners)
             .filter(|angle| angle.stiffness > 0.0)
             .collect();
-        let clamps = clamps
+        let twists: Vec<SheetTwist> = lattice
+            .twists
+            .iter()
+            .filter(|_| laws.bending && fabric.twist > 0.0)
+            .map(|twist| SheetTwist {
+                nodes: twist.nodes,
+                stiffness: fabric.twist * twist.area * twist.per_gap * twist.per_gap,
+            })
+            .collect();
+        let clamps: Vec<SheetClamp> = clamps
             .iter()
             .filter(|_| laws.bending)
             .map(|clamp| SheetClamp {
                 nodes: clamp.nodes,
                 slope: clamp.slope,
                 stiffness: 2.0 * fabric.along(clamp.yarn).bending * clamp.width / clamp.length,
-            });
-        let mut sheet = Self {
+            })
+            .collect();
+        let areas = lattice.area.iter();
+        Self {
             fabric,
-            rods: rods.collect(),
+            weights: areas.map(|area| area * fabric.weight).collect(),
+            roles: Roles::new(lattice.area.len(), &rods, &angles, &twists, &clamps),
+            rods,
             angles,
-            clamps: clamps.collect(),
-            weights: lattice
-                .area
-                .iter()
-                .map(|area| area * fabric.weight)
-                .collect(),
-            roles: Vec::new(),
-            first_role: Vec::new(),
-        };
-        sheet.list_roles();
-        sheet
+            twists,
+            clamps,
+        }
     }
 
     /// Weight of each node [gf].
@@ -169,9 +169,14 @@ impl<'a> Sheet<'a> {
             let [a, b, c] = angle.nodes;
             [[a, b], [b, c], [a, c]]
         });
+        let twists = self.twists.iter().flat_map(|twist| {
+            let [a, b, c, d] = twist.nodes;
+            [[a, b], [b, c], [c, d], [d, a], [a, c], [b, d]]
+        });
         let clamps = self.clamps.iter().map(|clamp| clamp.nodes);
         let mut pairs: Vec<[u32; 2]> = rods
             .chain(angles)
+            .chain(twists)
             .chain(clamps)
             .map(|[a, b]| [a.min(b), a.max(b)])
             .collect();
@@ -192,12 +197,16 @@ impl<'a> Sheet<'a> {
             let (u, v) = angle.rods(at);
             turn(&u, &v, angle.stiffness, angle.rest).energy
         });
+        let twists = threads::sum(self.twists.len(), |k| {
+            let element = &self.twists[k];
+            twist(&element.corners(at), element.stiffness).energy
+        });
         let clamps = threads::sum(self.clamps.len(), |k| {
             let clamp = &self.clamps[k];
             turn(&clamp.slope, &clamp.along(at), clamp.stiffness, 0.0).energy
         });
         let weights = threads::sum(at.len(), |node| self.weights[node] * at[node].z);
-        rods + angles + clamps + weights
+        rods + angles + twists + clamps + weights
     }
 
     /// The force on every node [gf].
@@ -224,6 +233,15 @@ impl<'a> Sheet<'a> {
         });
         for (angle, slopes) in self.angles.iter().zip(slopes) {
             for (node, slope) in angle.nodes.iter().zip(slopes) {
+                forces[*node as usize] -= slope;
+            }
+        }
+        let slopes = threads::map(self.twists.len(), |k| {
+            let element = &self.twists[k];
+            twist(&element.corners(at), element.stiffness).slopes
+        });
+        for (element, slopes) in self.twists.iter().zip(slopes) {
+            for (node, slope) in element.nodes.iter().zip(slopes) {
                 forces[*node as usize] -= slope;
             }
         }
@@ -272,12 +290,33 @@ impl<'a> Sheet<'a> {
                 }
             }
         }
+        self.twist_blocks(at, positive, add);
         for clamp in &self.clamps {
             let block = blocks_of(&clamp.slope, &clamp.along(at), clamp.stiffness, 0.0).vv;
             let [held, next] = clamp.nodes;
             add(held, held, &block);
             add(next, next, &block);
             add(held, next, &-block);
+        }
+    }
+
+    /// The twists' part of the stiffness.
+    fn twist_blocks(&self, at: &[Vec3], positive: bool, add: &mut dyn FnMut(u32, u32, &Mat3)) {
+        let blocks_of = if positive {
+            twist_stiffness_positive
+        } else {
+            twist_stiffness
+        };
+        let blocks = threads::map(self.twists.len(), |k| {
+            let element = &self.twists[k];
+            blocks_of(&element.corners(at), element.stiffness)
+        });
+        for (element, blocks) in self.twists.iter().zip(blocks) {
+            for (k, &row) in element.nodes.iter().enumerate() {
+                for (l, &column) in element.nodes.iter().enumerate().skip(k) {
+                    add(row, column, &blocks[k][l]);
+                }
+            }
         }
     }
 
@@ -288,7 +327,7 @@ impl<'a> Sheet<'a> {
             let ([a, b], [c, d]) = (grid[node], grid[to as usize]);
             [c - a, d - b]
         };
-        for role in self.roles_of(node) {
+        for role in self.roles.of(node) {
             match *role {
                 Role::Rod(index, end) => {
                     let rod = &self.rods[index as usize];
@@ -298,6 +337,11 @@ impl<'a> Sheet<'a> {
                 Role::Angle(index, _) => {
                     let angle = &self.angles[index as usize];
                     angle.add_to(&mut stencil, angle.nodes.map(way));
+                }
+                Role::Twist(index, place) => {
+                    let element = &self.twists[index as usize];
+                    let across = element.nodes[(usize::from(place) + 2) % 4];
+                    stencil.add_twist(way(across), element.stiffness);
                 }
                 // A vice is not a matter of the grid.
                 Role::Clamp(_) => (),
@@ -312,7 +356,7 @@ impl<'a> Sheet<'a> {
     pub(crate) fn vice(&self, node: usize, at: &[Vec3]) -> Option<Pull> {
         let mut pull: Option<Pull> = None;
         // They stand last in a node's list.
-        for role in self.roles_of(node).iter().rev() {
+        for role in self.roles.of(node).iter().rev() {
             let Role::Clamp(index) = *role else { break };
             let sum = pull.get_or_insert(Pull {
                 force: Vec3::zeros(),
@@ -336,7 +380,7 @@ impl<'a> Sheet<'a> {
     pub fn pull(&self, node: usize, at: &[Vec3]) -> Pull {
         let mut force = Vec3::new(0.0, 0.0, -self.weights[node]);
         let mut stiffness = Mat3::zeros();
-        for role in self.roles_of(node) {
+        for role in self.roles.of(node) {
             match *role {
                 Role::Rod(index, end) => {
                     let rod = &self.rods[index as usize];
@@ -355,6 +399,13 @@ impl<'a> Sheet<'a> {
                         + (blocks.uv + blocks.uv.transpose()) * (by_u * by_v)
                         + blocks.vv * (by_v * by_v);
                 }
+                Role::Twist(index, place) => {
+                    let (element, place) = (&self.twists[index as usize], usize::from(place));
+                    let corners = element.corners(at);
+                    force -= twist(&corners, element.stiffness).slopes[place];
+                    stiffness +=
+                        twist_stiffness_positive(&corners, element.stiffness)[place][place];
+                }
                 Role::Clamp(index) => {
                     let clamp = &self.clamps[index as usize];
                     let along = clamp.along(at);
@@ -368,7 +419,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// The force on one node [gf]; with `own_only`, without the reactions of its neighbours' bends
-    /// and corners.
+    /// and corners, and without twist.
     #[must_use]
     pub fn force(&self, node: usize, at: &[Vec3], own_only: bool) -> Vec3 {
         self.force_with(node, &at[node], at, own_only)
@@ -382,7 +433,7 @@ impl<'a> Sheet<'a> {
             if other == node { *here } else { at[other] }
         };
         let mut force = Vec3::new(0.0, 0.0, -self.weights[node]);
-        for role in self.roles_of(node) {
+        for role in self.roles.of(node) {
             match *role {
                 Role::Rod(index, end) => {
                     let rod = &self.rods[index as usize];
@@ -398,6 +449,14 @@ impl<'a> Sheet<'a> {
                     let law = turn(&u, &v, angle.stiffness, angle.rest);
                     let (by_u, by_v) = angle.signs()[place as usize];
                     force -= law.by_u * by_u + law.by_v * by_v;
+                }
+                Role::Twist(index, place) => {
+                    if own_only {
+                        continue;
+                    }
+                    let element = &self.twists[index as usize];
+                    let law = twist(&element.nodes.map(get), element.stiffness);
+                    force -= law.slopes[usize::from(place)];
                 }
                 Role::Clamp(index) => {
                     let clamp = &self.clamps[index as usize];
@@ -417,38 +476,6 @@ impl<'a> Sheet<'a> {
             width: rod.width,
             floor: rod.floor,
         }
-    }
-
-    fn roles_of(&self, node: usize) -> &[Role] {
-        &self.roles[self.first_role[node] as usize..self.first_role[node + 1] as usize]
-    }
-
-    /// Sorts the roles by node: a counting sort, so that a node's roles keep the elements' order.
-    fn list_roles(&mut self) {
-        let mut named: Vec<(u32, Role)> = Vec::new();
-        for (index, rod) in self.rods.iter().enumerate() {
-            for (end, node) in rod.nodes.iter().enumerate() {
-                named.push((*node, Role::Rod(index as u32, end as u8)));
-            }
-        }
-        for (index, angle) in self.angles.iter().enumerate() {
-            for (place, node) in angle.nodes.iter().enumerate() {
-                named.push((*node, Role::Angle(index as u32, place as u8)));
-            }
-        }
-        for (index, clamp) in self.clamps.iter().enumerate() {
-            named.push((clamp.nodes[1], Role::Clamp(index as u32)));
-        }
-        named.sort_by_key(|(node, _)| *node);
-        let mut first = vec![0_u32; self.len() + 1];
-        for (node, _) in &named {
-            first[*node as usize + 1] += 1;
-        }
-        for node in 0..self.len() {
-            first[node + 1] += first[node];
-        }
-        self.first_role = first;
-        self.roles = named.into_iter().map(|(_, role)| role).collect();
     }
 }
 

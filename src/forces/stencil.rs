@@ -10,7 +10,10 @@
 //!             8
 //! ```
 
-use crate::fabric::Yarn;
+use crate::{
+    fabric::Yarn,
+    lanes::{Lanes, Simd, WIDEST},
+};
 
 /// Where the thirteen points are, in steps along (warp, weft).
 pub(crate) const PLACES: [[i32; 2]; 13] = [
@@ -43,8 +46,10 @@ pub(super) const BENDS: usize = RODS + 12;
 /// For each of the four quarters, NE, NW, SW, SE: the node's own corner, that of the neighbour along
 /// the warp, that of the neighbour along the weft: stiffness [gf·cm], angle at rest [rad].
 pub(super) const CORNERS: usize = BENDS + 12;
+/// The twists of the cells in the four quarters: stiffness [gf/cm].
+pub(super) const TWISTS: usize = CORNERS + 24;
 /// How many numbers there are.
-pub(super) const SIZE: usize = CORNERS + 24;
+pub(super) const SIZE: usize = TWISTS + 4;
 
 /// The numbers of one node.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +77,10 @@ impl Stencil {
         self.0.map(f64::to_bits)
     }
 
+    fn twisting(&self) -> bool {
+        self.0[TWISTS..].iter().any(|stiffness| *stiffness != 0.0)
+    }
+
     /// Adds a rod towards a neighbour.
     pub(super) fn add_rod(&mut self, way: [i32; 2], rest: f64, width: f64, floor: f64) {
         let at = RODS + 3 * direction(way);
@@ -91,26 +100,110 @@ impl Stencil {
         self.0[at..at + 2].copy_from_slice(&[stiffness, rest]);
     }
 
-    /// Adds a corner in the quarter towards `quarter`: the node's own (place 0), or that of the
+    /// Adds the twist of the cell whose far node is `way` from the node.
+    pub(super) fn add_twist(&mut self, way: [i32; 2], stiffness: f64) {
+        self.0[TWISTS + quarter(way)] = stiffness;
+    }
+
+    /// Adds a corner in the quarter towards `way`: the node's own (place 0), or that of the
     /// neighbour along warp (1) or weft (2).
-    pub(super) fn add_corner(
-        &mut self,
-        quarter: [i32; 2],
-        place: usize,
-        stiffness: f64,
-        rest: f64,
-    ) {
-        let quarter = match (quarter[0] > 0, quarter[1] > 0) {
-            (true, true) => 0,
-            (false, true) => 1,
-            (false, false) => 2,
-            (true, false) => 3,
-        };
-        let at = CORNERS + 6 * quarter + 2 * place;
+    pub(super) fn add_corner(&mut self, way: [i32; 2], place: usize, stiffness: f64, rest: f64) {
+        let at = CORNERS + 6 * quarter(way) + 2 * place;
         if rest != core::f64::consts::FRAC_PI_2 {
             self.0[ON_GRAIN] = 0.0;
         }
         self.0[at..at + 2].copy_from_slice(&[stiffness, rest]);
+    }
+}
+
+/// The stencils of eight nodes side by side.
+#[derive(Clone, Debug)]
+pub(crate) struct Stencils {
+    numbers: [[f64; WIDEST]; SIZE],
+    /// Whether no bend has an angle at rest, and every corner a right one.
+    on_grain: bool,
+    /// Whether a cell resists twist.
+    twisting: bool,
+}
+
+impl Stencils {
+    /// The same stencil for all.
+    pub(crate) fn alike(stencil: &Stencil) -> Self {
+        Self {
+            numbers: stencil.0.map(|number| [number; WIDEST]),
+            on_grain: stencil.0[ON_GRAIN] == 1.0,
+            twisting: stencil.twisting(),
+        }
+    }
+
+    /// One of its own for each.
+    pub(crate) fn mixed<'a>(stencils: impl Iterator<Item = &'a Stencil>) -> Self {
+        let mut all = Self::alike(&Stencil::STILL);
+        for (k, stencil) in stencils.take(WIDEST).enumerate() {
+            all.on_grain &= stencil.0[ON_GRAIN] == 1.0;
+            all.twisting |= stencil.twisting();
+            for (numbers, number) in all.numbers.iter_mut().zip(stencil.0) {
+                numbers[k] = number;
+            }
+        }
+        all
+    }
+
+    /// Those from one of the eight on.
+    #[inline(always)]
+    pub(crate) fn from(&self, first: usize) -> StencilsFrom<'_> {
+        StencilsFrom {
+            stencils: self,
+            first,
+        }
+    }
+}
+
+/// Some of eight stencils.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StencilsFrom<'a> {
+    stencils: &'a Stencils,
+    first: usize,
+}
+
+impl StencilsFrom<'_> {
+    #[inline(always)]
+    pub(super) fn get<S: Simd>(&self, simd: S, index: usize) -> Lanes<S> {
+        Lanes::read(simd, &self.stencils.numbers[index][self.first..])
+    }
+
+    /// Whether no bend has an angle at rest, and every corner a right one.
+    #[inline(always)]
+    pub(super) fn on_grain(&self) -> bool {
+        self.stencils.on_grain
+    }
+
+    /// Whether a cell resists twist.
+    #[inline(always)]
+    pub(super) fn twisting(&self) -> bool {
+        self.stencils.twisting
+    }
+
+    /// 1 where a node moves, 0 where it does not.
+    #[inline(always)]
+    pub(crate) fn moves<S: Simd>(&self, simd: S) -> Lanes<S> {
+        self.get(simd, MOVES)
+    }
+
+    /// Weight of the nodes [gf].
+    #[inline(always)]
+    pub(crate) fn weight<S: Simd>(&self, simd: S) -> Lanes<S> {
+        self.get(simd, WEIGHT)
+    }
+}
+
+/// NE, NW, SW, SE.
+fn quarter([along, across]: [i32; 2]) -> usize {
+    match (along > 0, across > 0) {
+        (true, true) => 0,
+        (false, true) => 1,
+        (false, false) => 2,
+        (true, false) => 3,
     }
 }
 
