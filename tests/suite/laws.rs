@@ -5,7 +5,7 @@
 //! from weft but by the fabric (exchange).
 
 use crate::specimen::{
-    crumpled, disc, fabric, flat, linear, shapes, slope, towel, weightless, whole_matrix,
+    crumpled, disc, fabric, flat, linear, shapes, slope, towel, twisting, weightless, whole_matrix,
 };
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -53,7 +53,7 @@ proptest! {
     fn force_is_minus_the_gradient_of_energy(at in crumpled(&towel(4.0, 3.0, 1.0), 0.2)) {
         let lattice = towel(4.0, 3.0, 1.0);
         for laws in LAWS {
-            for cloth in [fabric("c"), linear(&fabric("d"))] {
+            for cloth in [fabric("c"), twisting(&fabric("c")), linear(&fabric("d"))] {
                 let sheet = Sheet::new(&lattice, &cloth, laws, &clamps(&lattice));
                 check_gradient(&sheet, &at)?;
             }
@@ -63,7 +63,7 @@ proptest! {
     #[test]
     fn force_is_minus_the_gradient_beside_an_outline_too(at in crumpled(&disc(2.2, 1.0), 0.15)) {
         let lattice = disc(2.2, 1.0);
-        let cloth = fabric("a");
+        let cloth = twisting(&fabric("a"));
         for laws in LAWS {
             check_gradient(&Sheet::new(&lattice, &cloth, laws, &[]), &at)?;
         }
@@ -73,7 +73,7 @@ proptest! {
     fn stiffness_is_minus_the_gradient_of_force(at in crumpled(&towel(3.0, 2.0, 1.0), 0.2)) {
         let lattice = towel(3.0, 2.0, 1.0);
         for laws in LAWS {
-            for cloth in [fabric("c"), linear(&fabric("d"))] {
+            for cloth in [fabric("c"), twisting(&fabric("c")), linear(&fabric("d"))] {
                 let sheet = Sheet::new(&lattice, &cloth, laws, &clamps(&lattice));
                 let exact = stiffness(&sheet, &at, false);
                 let measured = measured_stiffness(&sheet, &at);
@@ -87,7 +87,7 @@ proptest! {
     fn the_positive_stiffness_has_no_negative_direction(at in crumpled(&disc(2.2, 1.0), 0.25)) {
         let lattice = disc(2.2, 1.0);
         for laws in LAWS {
-            let cloth = fabric("b");
+            let cloth = twisting(&fabric("b"));
             let whole = stiffness(&Sheet::new(&lattice, &cloth, laws, &clamps(&lattice)), &at, true);
             let (greatest, values) = (whole.amax(), whole.symmetric_eigenvalues());
             prop_assert!(values.min() >= -1e-10 * greatest, "{laws:?}: {}", values.min());
@@ -103,7 +103,7 @@ proptest! {
         let lattice = towel(4.0, 3.0, 1.0);
         let turn = nalgebra::Rotation3::new(Vec3::from(axis));
         let moved: Vec<Vec3> = at.iter().map(|at| turn * at + Vec3::from(shift)).collect();
-        let cloth = weightless(&fabric("c"));
+        let cloth = weightless(&twisting(&fabric("c")));
         for laws in LAWS {
             let sheet = Sheet::new(&lattice, &cloth, laws, &[]);
             let (energy, after) = (sheet.energy(&at), sheet.energy(&moved));
@@ -123,7 +123,7 @@ proptest! {
     #[test]
     fn warp_and_weft_may_be_exchanged(at in crumpled(&towel(4.0, 3.0, 1.0), 0.3)) {
         let (lattice, turned) = (towel(4.0, 3.0, 1.0), towel(3.0, 4.0, 1.0));
-        let cloth = fabric("b");
+        let cloth = twisting(&fabric("b"));
         let exchanged = Fabric {
             warp: cloth.weft.clone(),
             weft: cloth.warp.clone(),
@@ -149,7 +149,7 @@ proptest! {
     #[test]
     fn a_nodes_own_sum_is_its_share_of_the_whole(at in crumpled(&disc(2.2, 1.0), 0.2)) {
         let lattice = disc(2.2, 1.0);
-        let cloth = fabric("d");
+        let cloth = twisting(&fabric("d"));
         let clamps = clamps(&lattice);
         let sheet = Sheet::new(&lattice, &cloth, Laws::default(), &clamps);
         let whole = stiffness(&sheet, &at, true);
@@ -170,7 +170,7 @@ proptest! {
 #[test]
 fn a_flat_cloth_without_weight_is_at_rest() {
     for lattice in [towel(4.0, 3.0, 1.0), towel(5.0, 3.0, 0.7), disc(2.2, 1.0)] {
-        let cloth = weightless(&linear(&fabric("d")));
+        let cloth = weightless(&linear(&twisting(&fabric("d"))));
         let sheet = Sheet::new(&lattice, &cloth, Laws::default(), &[]);
         let at = flat(&lattice);
         assert!(sheet.energy(&at) <= 1e-20, "{}", sheet.energy(&at));
@@ -183,7 +183,7 @@ fn a_flat_cloth_without_weight_is_at_rest() {
 #[test]
 fn the_positive_stiffness_is_exact_at_rest() {
     for lattice in [towel(4.0, 3.0, 1.0), disc(2.2, 1.0)] {
-        let cloth = linear(&fabric("d"));
+        let cloth = linear(&twisting(&fabric("d")));
         let sheet = Sheet::new(&lattice, &cloth, Laws::default(), &[]);
         let at = flat(&lattice);
         let (exact, positive) = (stiffness(&sheet, &at, false), stiffness(&sheet, &at, true));

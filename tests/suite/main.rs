@@ -11,8 +11,8 @@
 //! - `verification`, `friction`: drapes that mathematics knows, and where friction gives way.
 //! - `honesty`: what the certificate says is left to go is what is left.
 //! - `determinism`: the same bits on any number of threads.
-//! - `laws`, `laws_contact`, `laws_paper`: every law is the slope of its own energy, and stays
-//!   what it is wherever the cloth is and whichever way it is turned.
+//! - `laws`, `laws_contact`, `laws_paper`, `laws_twist`: every law is the slope of its own energy,
+//!   and stays what it is wherever the cloth is and whichever way it is turned.
 
 mod bad_files;
 mod bad_input;
@@ -25,6 +25,7 @@ mod honesty;
 mod laws;
 mod laws_contact;
 mod laws_paper;
+mod laws_twist;
 mod layers;
 mod maps;
 mod open_bodies;

@@ -33,6 +33,14 @@ pub(crate) fn linear(fabric: &Fabric) -> Fabric {
     linear
 }
 
+/// The fabric with some resistance to twist, of the order of fabric C's to bending.
+pub(crate) fn twisting(fabric: &Fabric) -> Fabric {
+    Fabric {
+        twist: 0.01,
+        ..fabric.clone()
+    }
+}
+
 /// The fabric without weight, so that nothing but the laws pulls.
 pub(crate) fn weightless(fabric: &Fabric) -> Fabric {
     Fabric {
