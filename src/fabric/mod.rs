@@ -71,8 +71,8 @@ pub struct Fabric {
     pub friction: Friction,
     /// Twisting moment per width and twist, M_TW [gf·cm]: bending's third component, beside those
     /// along warp and weft. A strip of width w has the torsional stiffness M_TW·w, and on the bias
-    /// cloth bends by (M_BN warp + M_BN weft + M_TW)/4. The paper's lattice has none: 0. Woven
-    /// cloth has about 1.1 times its mean bending (`physics.md` §0.5).
+    /// cloth bends by (M_BN warp + M_BN weft + M_TW)/4. The paper's lattice has none: 0. Ten
+    /// measured cloths had 1.1 times their mean bending, on average (`physics.md` §0.5).
     pub twist: f64,
     /// Along the warp.
     pub warp: Direction,

@@ -4,7 +4,8 @@
 //! With c the cosine between two rods, the angle law `½·k·(θ − θ₀)²` has the slope
 //! `k·(θ₀ − θ)/sin θ` by c, and `θ/sin θ` is a polynomial of `1 − c`. The stiffness is a simpler
 //! one than the exact: for bends `k·P/L²`, P across the rod, which is never less than the exact one
-//! without its mixed terms; for corners the square of the angle's derivative.
+//! without its mixed terms; for corners the square of the angle's derivative; for twists that of the
+//! gap's.
 
 use super::{
     blocks::Blocks,

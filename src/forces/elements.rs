@@ -1,7 +1,11 @@
 //! What a sheet is made of, by the numbers of its nodes: rods, angles between rods, twists, vices.
 
-use super::Stencil;
-use crate::{fabric::Yarn, math::Vec3};
+use super::{Clamp, Stencil};
+use crate::{
+    fabric::{Fabric, Yarn},
+    lattice::{Bend, Corner, Rod, Twist},
+    math::Vec3,
+};
 
 /// A rod by the numbers of its ends.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +43,16 @@ pub(super) struct SheetClamp {
 }
 
 impl SheetRod {
+    pub(super) fn new(rod: &Rod, fabric: &Fabric) -> Self {
+        Self {
+            nodes: rod.nodes,
+            yarn: rod.yarn,
+            rest: rod.rest,
+            width: rod.width,
+            floor: euler_load(fabric.along(rod.yarn).bending, rod.rest),
+        }
+    }
+
     pub(super) fn along(&self, at: &[Vec3]) -> Vec3 {
         self.along_by(&|node| at[node as usize])
     }
@@ -49,6 +63,25 @@ impl SheetRod {
 }
 
 impl SheetAngle {
+    pub(super) fn of_bend(bend: &Bend, fabric: &Fabric) -> Self {
+        Self {
+            nodes: bend.nodes,
+            stiffness: fabric.along(bend.yarn).bending * bend.width / bend.length,
+            rest: bend.rest_angle,
+            bend: true,
+        }
+    }
+
+    pub(super) fn of_corner(corner: &Corner, fabric: &Fabric) -> Self {
+        let shear = 0.5 * (fabric.warp.shear + fabric.weft.shear);
+        Self {
+            nodes: corner.nodes,
+            stiffness: shear * corner.area,
+            rest: corner.rest_angle,
+            bend: false,
+        }
+    }
+
     /// The two rods: before and after a bend's node; from a corner's node.
     pub(super) fn rods(&self, at: &[Vec3]) -> (Vec3, Vec3) {
         self.rods_by(&|node| at[node as usize])
@@ -107,13 +140,33 @@ impl SheetAngle {
 }
 
 impl SheetTwist {
+    pub(super) fn new(twist: &Twist, fabric: &Fabric) -> Self {
+        Self {
+            nodes: twist.nodes,
+            stiffness: fabric.twist * twist.area * twist.per_gap * twist.per_gap,
+        }
+    }
+
     pub(super) fn corners(&self, at: &[Vec3]) -> [Vec3; 4] {
         self.nodes.map(|node| at[node as usize])
     }
 }
 
 impl SheetClamp {
+    pub(super) fn new(clamp: &Clamp, fabric: &Fabric) -> Self {
+        Self {
+            nodes: clamp.nodes,
+            slope: clamp.slope,
+            stiffness: 2.0 * fabric.along(clamp.yarn).bending * clamp.width / clamp.length,
+        }
+    }
+
     pub(super) fn along(&self, at: &[Vec3]) -> Vec3 {
         at[self.nodes[1] as usize] - at[self.nodes[0] as usize]
     }
+}
+
+/// The compression per width at which a rod of this length buckles, π²·M_BN/b² [gf/cm].
+fn euler_load(bending: f64, length: f64) -> f64 {
+    core::f64::consts::PI * core::f64::consts::PI * bending / (length * length)
 }

@@ -76,61 +76,22 @@ impl<'a> Sheet<'a> {
     /// Gives a lattice the laws of a fabric.
     #[must_use]
     pub fn new(lattice: &Lattice, fabric: &'a Fabric, laws: Laws, clamps: &[Clamp]) -> Self {
-        let rods: Vec<SheetRod> = lattice
-            .rods
-            .iter()
-            .filter(|_| laws.tension)
-            .map(|rod| SheetRod {
-                nodes: rod.nodes,
-                yarn: rod.yarn,
-                rest: rod.rest,
-                width: rod.width,
-                floor: euler_load(fabric.along(rod.yarn).bending, rod.rest),
-            })
-            .collect();
-        let bends = lattice
-            .bends
-            .iter()
-            .filter(|_| laws.bending)
-            .map(|bend| SheetAngle {
-                nodes: bend.nodes,
-                stiffness: fabric.along(bend.yarn).bending * bend.width / bend.length,
-                rest: bend.rest_angle,
-                bend: true,
-            });
-        let shear = 0.5 * (fabric.warp.shear + fabric.weft.shear);
-        let corners = lattice
-            .corners
-            .iter()
-            .filter(|_| laws.shear)
-            .map(|corner| SheetAngle {
-                nodes: corner.nodes,
-                stiffness: shear * corner.area,
-                rest: corner.rest_angle,
-                bend: false,
-            });
+        let rods = lattice.rods.iter().filter(|_| laws.tension);
+        let rods: Vec<SheetRod> = rods.map(|rod| SheetRod::new(rod, fabric)).collect();
+        let bends = lattice.bends.iter().filter(|_| laws.bending);
+        let corners = lattice.corners.iter().filter(|_| laws.shear);
         let angles: Vec<SheetAngle> = bends
-            .chain(corners)
+            .map(|bend| SheetAngle::of_bend(bend, fabric))
+            .chain(corners.map(|corner| SheetAngle::of_corner(corner, fabric)))
             .filter(|angle| angle.stiffness > 0.0)
             .collect();
-        let twists: Vec<SheetTwist> = lattice
-            .twists
-            .iter()
-            .filter(|_| laws.bending && fabric.twist > 0.0)
-            .map(|twist| SheetTwist {
-                nodes: twist.nodes,
-                stiffness: fabric.twist * twist.area * twist.per_gap * twist.per_gap,
-            })
+        let twists = lattice.twists.iter().filter(|_| laws.bending);
+        let twists: Vec<SheetTwist> = twists
+            .map(|twist| SheetTwist::new(twist, fabric))
+            .filter(|twist| twist.stiffness > 0.0)
             .collect();
-        let clamps: Vec<SheetClamp> = clamps
-            .iter()
-            .filter(|_| laws.bending)
-            .map(|clamp| SheetClamp {
-                nodes: clamp.nodes,
-                slope: clamp.slope,
-                stiffness: 2.0 * fabric.along(clamp.yarn).bending * clamp.width / clamp.length,
-            })
-            .collect();
+        let clamps = clamps.iter().filter(|_| laws.bending);
+        let clamps: Vec<SheetClamp> = clamps.map(|clamp| SheetClamp::new(clamp, fabric)).collect();
         let areas = lattice.area.iter();
         Self {
             fabric,
@@ -477,9 +438,4 @@ impl<'a> Sheet<'a> {
             floor: rod.floor,
         }
     }
-}
-
-/// The compression per width at which a rod of this length buckles, π²·M_BN/b² [gf/cm].
-fn euler_load(bending: f64, length: f64) -> f64 {
-    core::f64::consts::PI * core::f64::consts::PI * bending / (length * length)
 }

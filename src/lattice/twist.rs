@@ -85,3 +85,58 @@ fn areas(grid: &Grid, per_gap: &[Option<f64>]) -> Vec<f64> {
     }
     areas
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::{Outline, sample::cut, weave::weave};
+
+    #[test]
+    fn a_cell_of_a_rectangle_has_two_over_its_area_and_stands_for_itself() {
+        let lattice = cut(Outline::rectangle(6.0, 4.0).unwrap(), 0.0, 0.5);
+        assert_eq!(lattice.twists.len(), lattice.cells.len());
+        for (twist, cell) in lattice.twists.iter().zip(&lattice.cells) {
+            let expected = Twist {
+                nodes: *cell,
+                per_gap: 8.0,
+                area: 0.25,
+            };
+            assert_eq!(*twist, expected);
+        }
+    }
+
+    #[test]
+    fn cells_beside_a_triangle_stand_for_it() {
+        let mut grid = Grid::regular([3, 3], Vec2::new(2.0, 2.0));
+        grid.meshes[3] = Mesh::Without(2);
+        let areas: Vec<f64> = weave(&grid).twists.iter().map(|twist| twist.area).collect();
+        assert_eq!(areas, [4.0, 5.0, 5.0]);
+    }
+
+    #[test]
+    fn a_cell_that_stands_on_its_corner_measures_no_twist() {
+        let corners = [[0.0, -0.7], [0.7, 0.0], [0.0, 0.7], [-0.7, 0.0]];
+        assert_eq!(gaps(corners.map(Vec2::from))[1], 0.0);
+        let mut grid = Grid::regular([2, 2], Vec2::new(1.0, 1.0));
+        for (node, corner) in [0, 1, 3, 2].into_iter().zip(corners) {
+            grid.shift[node] = Vec2::from(corner) - grid.place(node);
+        }
+        assert_eq!(weave(&grid).twists, []);
+    }
+
+    #[test]
+    fn every_cell_of_four_nodes_measures_twist_whatever_the_outline() {
+        let towel = |grain| cut(Outline::rectangle(20.0, 13.0).unwrap(), grain, 0.5);
+        let disc = cut(Outline::disc(8.3).unwrap(), 0.0, 0.5);
+        let towels = [0.0, 5.0, 17.0, 30.0, 45.0, 71.0].map(towel);
+        for lattice in towels.iter().chain([&disc]) {
+            let has_four = |cell: &&[u32; 4]| (0..4).all(|k| cell[k] != cell[(k + 1) % 4]);
+            let cells = lattice.cells.iter().filter(has_four);
+            let twists = &lattice.twists;
+            assert!(cells.eq(twists.iter().map(|twist| &twist.nodes)));
+            // On the grain 8/cm² and 0.25 cm².
+            let sound = |twist: &Twist| (4.0..20.0).contains(&twist.per_gap) && twist.area < 0.75;
+            assert!(twists.iter().all(sound));
+        }
+    }
+}

@@ -302,7 +302,7 @@ pub(super) struct SolveTable {
     pub(super) max_seconds: Option<f64>,
     #[serde(default)]
     pub(super) forces: ForcesWord,
-    /// Laws that act beside weight; all three where absent.
+    /// Laws that act beside weight; all three where absent. Twist goes with bending.
     pub(super) laws: Option<Vec<LawWord>>,
 }
 
