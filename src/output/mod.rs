@@ -1,5 +1,5 @@
 //! What a drape is handed on as: meshes for other programs (OBJ, GLB, PLY), a picture (PNG), heat
-//! maps with a legend in physical units, and the report (JSON).
+//! maps with a legend in physical units, and the report (JSON). Curves become a plot (SVG).
 //!
 //! Everything is made in memory and returned; [`write()`] alone touches files, and it replaces a
 //! file only by a whole one. Nothing here fails for a shape that is not at rest, not even for one
@@ -11,6 +11,7 @@ mod glb;
 mod heat;
 mod obj;
 mod picture;
+mod plot;
 mod ply;
 mod png;
 mod report;
@@ -24,6 +25,7 @@ pub use glb::glb;
 pub use heat::{HeatMap, Map, UnknownMap};
 pub use obj::obj;
 pub use picture::{View, picture};
+pub use plot::{Mark, Plot, Series, plot};
 pub use ply::ply;
 pub use report::{Run, report};
 pub use write::{WriteError, write};
