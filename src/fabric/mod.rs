@@ -5,6 +5,7 @@
 //! cloth can have, and [`KesSheet`] converts what other laboratories write.
 
 mod curve;
+pub mod fit;
 mod kes;
 mod limits;
 mod swatch;
