@@ -1,5 +1,6 @@
 //! What a drape is handed on as: meshes for other programs (OBJ, GLB, PLY), a picture (PNG), heat
-//! maps with a legend in physical units, and the report (JSON). Curves become a plot (SVG).
+//! maps with a legend in physical units, and the report (JSON). Curves become a plot (SVG),
+//! and what was found in measurements a fabric file (TOML).
 //!
 //! Everything is made in memory and returned; [`write()`] alone touches files, and it replaces a
 //! file only by a whole one. Nothing here fails for a shape that is not at rest, not even for one
@@ -7,6 +8,7 @@
 //! The same input gives the same bytes, whatever the number of threads.
 
 mod colour;
+mod fitted;
 mod glb;
 mod heat;
 mod obj;
@@ -21,6 +23,7 @@ mod shell;
 mod weave;
 mod write;
 
+pub use fitted::{fabric_file, fit_plot, fit_report};
 pub use glb::glb;
 pub use heat::{HeatMap, Map, UnknownMap};
 pub use obj::obj;

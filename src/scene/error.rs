@@ -2,7 +2,7 @@
 
 use crate::{
     body::{MeshError, PartError},
-    fabric::InvalidCurve,
+    fabric::{InvalidCurve, InvalidFabric, fit::Unfit},
     lattice::OutlineError,
     solver::Unsolvable,
 };
@@ -158,6 +158,54 @@ pub enum Fault {
         /// How deep they may nest.
         limit: usize,
     },
+    /// A record without readings.
+    #[error("has no readings; allowed: a header that names the columns, then 4 lines or more")]
+    NoReadings,
+    /// A record that lacks a column.
+    #[error(
+        "no column {wanted}; the header has {found}{}",
+        nearest.as_ref().map_or(String::new(), |name| format!("; did you mean {name:?}?"))
+    )]
+    MissingColumn {
+        /// Columns to choose from.
+        wanted: String,
+        /// The columns found.
+        found: String,
+        /// The one most like a column found.
+        nearest: Option<String>,
+    },
+    /// A line of a record with more or fewer values than the header has columns.
+    #[error("{found} values under {header} columns{hint}")]
+    Columns {
+        /// Values on the line.
+        found: usize,
+        /// Columns of the header.
+        header: usize,
+        /// The likely cause.
+        hint: &'static str,
+    },
+    /// A cloth measured along one thread direction.
+    #[error(
+        "the {present} alone is measured; allowed: warp and weft, cloth hangs by both{}",
+        in_table(table)
+    )]
+    OneDirection {
+        /// The direction that is there.
+        present: &'static str,
+        /// The table that lacks the other.
+        table: String,
+    },
+    /// Readings that give no value.
+    #[error("{key}: {error}")]
+    Unfit {
+        /// The key.
+        key: String,
+        /// What is wrong with them.
+        error: Unfit,
+    },
+    /// A value that was found in readings, and that no cloth has.
+    #[error("what was found is no cloth: {0}")]
+    NoCloth(InvalidFabric),
     /// A scene from which no start can be made.
     #[error("{key}{}{error}", after_value(value))]
     Unsolvable {

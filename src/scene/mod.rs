@@ -28,10 +28,12 @@ mod document;
 mod error;
 mod fabric;
 mod format;
+mod measured;
 
 pub use body::InspectedMesh;
 pub use error::{Fault, Place, SceneError};
 pub use fabric::{fabric, fabric_text};
+pub use measured::measured;
 
 use crate::{
     body::Bodies,

@@ -3,6 +3,7 @@
 //! - `layers`: modules name only what the code map allows.
 //! - `cli`: every command, what it prints and how it exits.
 //! - `bad_input`, `bad_files`: each slip gets its message and its exit code, and costs no file.
+//! - `fit`: readings with errors give the fabric that they are of, and bad sheets their messages.
 //! - `scenes`: every scene is certified and looks as it did, in figures and in a picture.
 //! - `figures`: what the paper says of its figures is so, and the README gives the numbers.
 //! - `maps`: heat maps of cloths whose values are known beforehand.
@@ -19,6 +20,7 @@ mod bad_input;
 mod cli;
 mod determinism;
 mod figures;
+mod fit;
 mod friction;
 mod fuzz;
 mod honesty;

@@ -73,6 +73,23 @@ pub(crate) enum FabricWish {
         /// One of the fabrics that ship, a file in fabrics/, or a path to a .toml.
         name: String,
     },
+    /// Finds a fabric in what a laboratory measured, and writes its file.
+    ///
+    /// The sheet names S–S curves, overhangs and shear records, or has the numbers of a KES-F or
+    /// FAST sheet. Each S–S curve is also plotted beside the file, as NAME-warp.svg, NAME-weft.svg.
+    Fit(FitWish),
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct FitWish {
+    /// The measurement sheet, a .toml.
+    pub(crate) sheet: PathBuf,
+    /// The fabric file to write, a .toml.
+    #[arg(long, value_name = "FABRIC")]
+    pub(crate) out: PathBuf,
+    /// Prints what was found as JSON alone.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 fn seconds(text: &str) -> Result<f64, String> {

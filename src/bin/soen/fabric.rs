@@ -1,9 +1,9 @@
-//! `soen fabric list` and `soen fabric show NAME`.
+//! `soen fabric list`, `soen fabric show NAME` and `soen fabric fit SHEET`.
 
 use crate::{
     args::FabricWish,
     failure::{DONE, Failure},
-    say,
+    fit, say,
 };
 use soen::{
     fabric::{Direction, Fabric, SWATCHES, Tension},
@@ -15,6 +15,7 @@ pub(crate) fn fabric(wish: &FabricWish) -> Result<ExitCode, Failure> {
     match wish {
         FabricWish::List => say(&list()?)?,
         FabricWish::Show { name } => say(&scene::fabric_text(name)?)?,
+        FabricWish::Fit(wish) => fit::fit(wish)?,
     }
     Ok(DONE)
 }

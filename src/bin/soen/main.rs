@@ -6,6 +6,7 @@ mod drape;
 mod fabric;
 mod failure;
 mod files;
+mod fit;
 mod progress;
 mod schema;
 

@@ -90,7 +90,7 @@ pub enum Unfit {
     NoOverhang,
     /// The paper's relation away from its angle.
     #[error(
-        "the paper's relation (2) holds at 41.5 degrees, not at {degrees}; allowed there: \
+        "the paper's relation (2) holds at 41.5 degrees, not at {degrees:.1}; allowed there: \
          \"peirce\", \"exact\""
     )]
     NotItsAngle {
