@@ -17,6 +17,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod bias_bend;
+mod buckling;
 mod cantilever;
 mod capstan;
 mod drapemeter;
@@ -27,8 +29,11 @@ mod shadow;
 mod shear;
 mod slope;
 mod specimen;
+mod stick_slip;
 mod strip;
 
+pub use bias_bend::{BiasBend, BiasBent};
+pub use buckling::{Buckling, CRITICAL, Stood};
 pub use cantilever::{Bent, Cantilever, Overhang, SLOPE};
 pub use capstan::{Capstan, Held};
 pub use drapemeter::{Drapemeter, Drapes, Laying};
@@ -38,6 +43,7 @@ pub use shadow::{Folds, Shadow};
 pub use shear::{Frame, ShearFrame, Sheared};
 pub use slope::{Slid, Slope};
 pub use specimen::{Cut, Rest};
+pub use stick_slip::{Slipped, StickSlip};
 pub use strip::{Hung, HungStrip, Pull, Pulled};
 
 use crate::solver::Progress;

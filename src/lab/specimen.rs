@@ -3,7 +3,7 @@
 use super::{LabError, Watch};
 use crate::{
     body::Bodies,
-    fabric::{Fabric, Yarn},
+    fabric::{Fabric, Tension, Yarn},
     forces::Laws,
     lattice::{Edge, Outline, Piece},
     math::{Vec2, Vec3},
@@ -160,4 +160,19 @@ pub(super) fn tared(fabric: &Fabric) -> Fabric {
         weight,
         ..fabric.clone()
     }
+}
+
+/// T·L²/M_BN and M_SH·L²/M_BN of cloth that bends long before anything else.
+const RIGID: f64 = 1e6;
+
+/// The cloth with yarns and shear so stiff that a strip of a length [cm] only bends and twists, as
+/// the theories of rods have it.
+pub(super) fn rigid(fabric: &Fabric, length: f64) -> Fabric {
+    let mut cloth = fabric.clone();
+    for direction in [&mut cloth.warp, &mut cloth.weft] {
+        let modulus = RIGID * direction.bending / (length * length);
+        direction.tension = Tension::Linear { modulus };
+        direction.shear = modulus;
+    }
+    cloth
 }

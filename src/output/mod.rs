@@ -16,6 +16,7 @@ mod picture;
 mod plot;
 mod ply;
 mod png;
+mod reading;
 mod report;
 #[cfg(test)]
 mod sample;
@@ -30,6 +31,7 @@ pub use obj::obj;
 pub use picture::{View, picture};
 pub use plot::{Mark, Plot, Series, plot};
 pub use ply::ply;
+pub use reading::{curve, reading};
 pub use report::{Run, report};
 pub use write::{WriteError, write};
 

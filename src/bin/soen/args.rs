@@ -1,5 +1,6 @@
 //! Every command and option, with its help and its default.
 
+use crate::lab::args::LabWish;
 use clap::{Args, Parser, Subcommand};
 use soen::output::Map;
 use std::path::PathBuf;
@@ -30,6 +31,11 @@ pub(crate) enum Command {
         #[command(subcommand)]
         wish: FabricWish,
     },
+    /// Measures a fabric as a textile laboratory does, on the simulated cloth.
+    ///
+    /// Each instrument prints its numbers. Exit codes: 0 certified, 2 bad input, 3 stopped before
+    /// every shape was certified, 1 anything else, and for `verify` where a comparison fails.
+    Lab(LabWish),
     /// Prints the JSON Schema of scene files, for editors.
     Schema,
 }

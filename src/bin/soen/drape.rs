@@ -94,7 +94,7 @@ fn set_threads(wished: Option<u16>) -> Result<usize, Failure> {
 }
 
 /// A flag that Ctrl-C raises; a second Ctrl-C ends the program at once.
-fn stopped_by_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
+pub(crate) fn stopped_by_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&stop);
     let set = ctrlc::set_handler(move || {

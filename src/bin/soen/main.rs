@@ -7,6 +7,7 @@ mod fabric;
 mod failure;
 mod files;
 mod fit;
+mod lab;
 mod progress;
 mod schema;
 
@@ -23,6 +24,7 @@ fn main() -> ExitCode {
         Command::Drape(wish) => drape::drape(&wish),
         Command::Check { scene } => check::check(&scene),
         Command::Fabric { wish } => fabric::fabric(&wish),
+        Command::Lab(wish) => lab::lab(&wish),
         Command::Schema => schema::schema(),
     };
     done.unwrap_or_else(|failure| {

@@ -62,6 +62,7 @@ pub fn measured(path: &Path) -> Result<Measured, SceneError> {
         weight,
         thickness,
         friction,
+        twist: 0.0,
         warp: empty.clone(),
         weft: empty,
     };

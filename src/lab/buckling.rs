@@ -1,0 +1,140 @@
+//! Lateral buckling: a narrow strip on edge, clamped at one end, falls over sideways when it is
+//! longer than `L³ = 12.8538·√(EI·GJ)/q` (Michell 1899, Prandtl 1899, for its own weight).
+//!
+//! Of cloth, EI is M_BN and GJ the twist modulus M_T, each times the width, and q is W times it: so
+//! the width falls out. Without a twist modulus nothing keeps the strip up.
+
+use super::{
+    LabError, Reading, Rest, Watch,
+    reading::{figures, within},
+    specimen::{hold, rigid, strip},
+};
+use crate::{
+    fabric::{Fabric, Yarn},
+    lattice::Edge,
+    math::Vec3,
+};
+
+/// q·L³ over √(EI·GJ) at which it buckles.
+pub const CRITICAL: f64 = 12.853_763_321_4;
+/// A strip whose tip is this part of its length off its plane has buckled.
+const BUCKLED: f64 = 0.005;
+/// The critical length is found to within this part.
+const WITHIN: f64 = 0.005;
+
+/// A strip on edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Buckling {
+    /// Which way its length runs.
+    pub yarn: Yarn,
+    /// Its height, over its length.
+    pub slimness: f64,
+    /// Cells along its height.
+    pub cells: u32,
+    /// Whether its yarns and its shear are rigid, as the theory has them; else the strip also sags
+    /// in its plane.
+    pub rigid: bool,
+}
+
+impl Default for Buckling {
+    fn default() -> Self {
+        Self {
+            yarn: Yarn::Warp,
+            slimness: 0.1,
+            cells: 2,
+            rigid: false,
+        }
+    }
+}
+
+/// The longest strip that stood.
+#[derive(Clone, Debug)]
+pub struct Stood {
+    /// Its length [cm].
+    pub length: f64,
+    /// The same by theory [cm].
+    pub critical: f64,
+    /// The shortest strip that was seen to buckle.
+    pub rest: Rest,
+}
+
+impl Buckling {
+    /// Halves between standing and buckling.
+    ///
+    /// # Errors
+    /// [`LabError`] where the fabric does not bend or twist, or a strip cannot be cut.
+    pub fn run(&self, fabric: &Fabric, watch: Watch<'_>) -> Result<Stood, LabError> {
+        within("slimness [-]", self.slimness, 0.005, 1.0)?;
+        within("cells", f64::from(self.cells), 1.0, 50.0)?;
+        let bending = within(
+            "bending [gf·cm]",
+            fabric.along(self.yarn).bending,
+            1e-9,
+            1e4,
+        )?;
+        let twist = within("twist modulus [gf·cm]", fabric.twist, 1e-9, 1e4)?;
+        let critical = libm::cbrt(CRITICAL * (bending * twist).sqrt() / fabric.weight);
+        let (mut low, mut high) = (0.0, 2.0 * critical);
+        let mut found = None;
+        while high - low > WITHIN * critical {
+            let middle = 0.5 * (low + high);
+            let rest = self.stand(fabric, middle, watch)?;
+            if off_plane(&rest) > BUCKLED * middle {
+                (high, found) = (middle, Some(rest));
+            } else {
+                low = middle;
+            }
+        }
+        let rest = found.ok_or(LabError::NotFound {
+            what: "a length [cm] at which the strip buckles",
+            low: 0.0,
+            high: 2.0 * critical,
+        })?;
+        let length = 0.5 * (low + high);
+        Ok(Stood {
+            length,
+            critical,
+            rest,
+        })
+    }
+
+    /// A strip on edge.
+    ///
+    /// # Errors
+    /// [`LabError`] where it cannot be cut.
+    pub fn stand(&self, fabric: &Fabric, length: f64, watch: Watch<'_>) -> Result<Rest, LabError> {
+        let height = self.slimness * length;
+        let pitch = height / f64::from(self.cells);
+        let rigid = self.rigid.then(|| rigid(fabric, length));
+        let cloth = rigid.as_ref().unwrap_or(fabric);
+        let mut problem = strip(cloth, self.yarn.into(), [length, height], pitch)?;
+        problem.placement.y_axis = Vec3::z();
+        problem.holds = vec![hold(Edge::XMin, true, Vec3::zeros())];
+        Rest::of(problem, watch)
+    }
+}
+
+/// How far the tip is off the plane in which the strip was put up [cm].
+pub(super) fn off_plane(rest: &Rest) -> f64 {
+    rest.middle(Edge::XMax).y.abs()
+}
+
+impl Stood {
+    /// What the instrument shows.
+    #[must_use]
+    pub fn reading(self) -> Reading {
+        let of_theory = 100.0 * (self.length / self.critical - 1.0);
+        Reading {
+            instrument: "buckling",
+            figures: figures([
+                ("twist_gf_cm", self.rest.problem.fabric.twist),
+                ("critical_length_cm", self.length),
+                ("critical_length_of_theory_cm", self.critical),
+                ("from_theory_percent", of_theory),
+            ]),
+            trace: None,
+            certified: self.rest.settled.converged,
+            rest: Some(self.rest),
+        }
+    }
+}

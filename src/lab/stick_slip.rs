@@ -1,0 +1,122 @@
+//! Stick and slip (after Romero et al. 2021): a strip clamped upright above a floor is lowered, bends
+//! over its tip, and the tip slips when the floor's reaction leaves the Coulomb cone.
+//!
+//! The strip has next to no weight, so that its elastica is the weightless one.
+
+use super::{
+    LabError, Reading, Rest, Watch,
+    reading::{figures, within},
+    specimen::{hold, rigid, strip},
+};
+use crate::{
+    body::{Bodies, Part, Shape},
+    fabric::{Fabric, Yarn},
+    lattice::Edge,
+    math::{Pose, Vec3},
+};
+
+/// A strip above a floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StickSlip {
+    /// Which way the strip's length runs.
+    pub yarn: Yarn,
+    /// Coulomb friction of the floor [-].
+    pub friction: f64,
+    /// Cells along the strip.
+    pub cells: u32,
+}
+
+/// Where the tip slipped.
+#[derive(Clone, Debug)]
+pub struct Slipped {
+    /// How far the clamp was lowered, over the strip's length [-].
+    pub compression: f64,
+    /// The strip just before.
+    pub rest: Rest,
+}
+
+/// Length of the strip [cm].
+const LENGTH: f64 = 10.0;
+/// W·L³/M_BN of a strip with next to no weight.
+const WEIGHTLESS: f64 = 0.02;
+/// A tip this part of the length away has slipped.
+const AWAY: f64 = 0.03;
+/// Compressions are tried up to this; beyond it the tip lies flat.
+const MOST: f64 = 0.36;
+const WITHIN: f64 = 5e-4;
+/// Rounds that a strip has to come to rest.
+const ROUNDS: usize = 300;
+const THICKNESS: f64 = 0.01;
+
+impl StickSlip {
+    /// Halves between sticking and slipping.
+    ///
+    /// # Errors
+    /// [`LabError`] where a setting is out of range or the tip never slips.
+    pub fn run(&self, fabric: &Fabric, watch: Watch<'_>) -> Result<Slipped, LabError> {
+        within("friction [-]", self.friction, 0.02, 0.37)?;
+        within("cells", f64::from(self.cells), 5.0, 200.0)?;
+        let (mut low, mut high) = (0.0, MOST);
+        let mut found = None;
+        while high - low > WITHIN {
+            let middle = 0.5 * (low + high);
+            let rest = self.press(fabric, middle, watch)?;
+            if rest.settled.converged && rest.middle(Edge::XMax).xy().norm() < AWAY * LENGTH {
+                (low, found) = (middle, Some(rest));
+            } else {
+                high = middle;
+            }
+        }
+        let rest = found.ok_or(LabError::NotFound {
+            what: "a compression at which the tip sticks",
+            low: 0.0,
+            high: MOST,
+        })?;
+        // As it stands: under its load the tip comes to lie a little below the floor's skin.
+        let height = rest.middle(Edge::XMin).z - rest.middle(Edge::XMax).z;
+        let compression = 1.0 - height / LENGTH + 0.5 * (high - low);
+        Ok(Slipped { compression, rest })
+    }
+
+    /// The strip, its clamp lowered by a part of its length.
+    fn press(&self, fabric: &Fabric, part: f64, watch: Watch<'_>) -> Result<Rest, LabError> {
+        let mut cloth = rigid(fabric, LENGTH);
+        let bending = cloth.along(self.yarn).bending;
+        cloth.weight = WEIGHTLESS * bending / (LENGTH * LENGTH * LENGTH);
+        let pitch = LENGTH / f64::from(self.cells);
+        let mut problem = strip(&cloth, self.yarn.into(), [LENGTH, pitch], pitch)?;
+        problem.placement.x_axis = -Vec3::z();
+        problem.placement.centre = Vec3::z() * (0.5 * LENGTH + 0.02);
+        let down = Vec3::z() * (-part * LENGTH - 0.02);
+        problem.holds = vec![hold(Edge::XMin, true, down)];
+        let floor = Shape::Cuboid {
+            size: Vec3::new(6.0 * LENGTH, 6.0 * LENGTH, 2.0),
+        };
+        let below = Pose::translation(0.0, 0.0, -1.0 - 0.5 * THICKNESS);
+        problem.bodies = Bodies::new(vec![Part::new("floor".into(), &floor, below)?]);
+        problem.friction = self.friction;
+        problem.thickness = THICKNESS;
+        let mut left = ROUNDS;
+        Rest::within(problem, 1e-3, &mut |progress| {
+            left = left.saturating_sub(1);
+            left > 0 && watch(progress)
+        })
+    }
+}
+
+impl Slipped {
+    /// What the instrument shows.
+    #[must_use]
+    pub fn reading(self, test: &StickSlip) -> Reading {
+        Reading {
+            instrument: "stick-slip",
+            figures: figures([
+                ("friction", test.friction),
+                ("compression_at_slip", self.compression),
+            ]),
+            trace: None,
+            certified: self.rest.settled.converged,
+            rest: Some(self.rest),
+        }
+    }
+}
