@@ -2,10 +2,11 @@
 
 use super::plot::{Mark, Plot, Series};
 use crate::fabric::{
-    Direction, Quantity, Tension, Yarn,
-    fit::{Basis, Fate, Finding, Measured, MeasuredCurve, MeasuredDirection},
+    Direction, Tension, Yarn,
+    fit::{Basis, Doubt, Fate, Finding, Measured, MeasuredCurve, MeasuredDirection},
 };
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::Value;
 use std::fmt::Write;
 
 /// The fabric as a file that scenes take, with what each number rests on beside it.
@@ -52,7 +53,7 @@ fn table(found: &MeasuredDirection, direction: &Direction) -> String {
     }
     remark(&mut text, &format!("A {}", provenance(&found.a)));
     if let Some(half) = found.b.estimate.half_width {
-        remark(&mut text, &format!("B ± {half:.2}"));
+        remark(&mut text, &format!("B ± {}", short(half)));
     }
     let _ = match direction.tension {
         Tension::Power { a, b } => {
@@ -118,59 +119,113 @@ fn quoted(text: &str) -> String {
     Value::from(text).to_string().replace('\u{7f}', "\\u007f")
 }
 
-/// The findings as JSON text (`soen-fit/1`). A number that is not finite is written as `null`.
+/// The findings as JSON text (`soen-fit/1`), keys in the order of the type below. A number that is
+/// not finite is written as `null`.
 #[must_use]
 pub fn fit_report(measured: &Measured) -> String {
-    let fabric = &measured.fabric;
-    let report = json!({
-        "format": "soen-fit/1",
-        "sheet": measured.sheet,
-        "name": fabric.name,
-        "source": fabric.source,
-        "weight_gf_per_cm2": fabric.weight,
-        "thickness_cm": fabric.thickness,
-        "friction": { "body": fabric.friction.body, "cloth": fabric.friction.cloth },
-        "warp": direction_report(&measured.warp),
-        "weft": direction_report(&measured.weft),
-        "doubts": measured.doubts.iter().map(ToString::to_string).collect::<Vec<_>>(),
-    });
-    format!("{report:#}\n")
+    // Structs of text and numbers cannot fail to become JSON.
+    serde_json::to_string_pretty(&Report::new(measured)).unwrap_or_default() + "\n"
 }
 
-fn direction_report(found: &MeasuredDirection) -> Value {
-    let mut report = serde_json::Map::new();
-    for (quantity, finding) in found.findings() {
-        report.insert(key(quantity).into(), finding_report(finding));
-    }
-    let doubts: Vec<String> = found.doubts.iter().map(ToString::to_string).collect();
-    report.insert("doubts".into(), doubts.into());
-    report.into()
+#[derive(Serialize)]
+struct Report<'a> {
+    format: &'static str,
+    sheet: &'a str,
+    name: &'a str,
+    source: &'a str,
+    weight_gf_per_cm2: f64,
+    thickness_cm: f64,
+    friction: Coefficients,
+    warp: Along<'a>,
+    weft: Along<'a>,
+    doubts: Vec<String>,
 }
 
-fn key(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::PowerFactor(_) => "a_gf_per_cm",
-        Quantity::PowerExponent(_) => "b",
-        Quantity::Bending(_) => "bending_gf_cm",
-        Quantity::Shear(_) => "shear_gf_per_cm",
-        _ => "other",
+#[derive(Serialize)]
+struct Coefficients {
+    body: f64,
+    cloth: f64,
+}
+
+#[derive(Serialize)]
+struct Along<'a> {
+    a_gf_per_cm: Found<'a>,
+    b: Found<'a>,
+    bending_gf_cm: Found<'a>,
+    shear_gf_per_cm: Found<'a>,
+    doubts: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Found<'a> {
+    value: f64,
+    half_width_95: Option<f64>,
+    how: &'a str,
+    basis: Option<RestsOn>,
+}
+
+#[derive(Serialize)]
+struct RestsOn {
+    used: usize,
+    of: usize,
+    range: [f64; 2],
+    range_unit: &'static str,
+    residual: f64,
+}
+
+impl<'a> Report<'a> {
+    fn new(measured: &'a Measured) -> Self {
+        let fabric = &measured.fabric;
+        Self {
+            format: "soen-fit/1",
+            sheet: &measured.sheet,
+            name: &fabric.name,
+            source: &fabric.source,
+            weight_gf_per_cm2: fabric.weight,
+            thickness_cm: fabric.thickness,
+            friction: Coefficients {
+                body: fabric.friction.body,
+                cloth: fabric.friction.cloth,
+            },
+            warp: Along::new(&measured.warp),
+            weft: Along::new(&measured.weft),
+            doubts: in_text(&measured.doubts),
+        }
     }
 }
 
-fn finding_report(finding: &Finding) -> Value {
-    let mut report = json!({
-        "value": finding.estimate.value,
-        "half_width_95": finding.estimate.half_width,
-        "how": finding.how,
-    });
-    if let Some(basis) = &finding.basis {
-        report["used"] = basis.used.into();
-        report["of"] = basis.of.into();
-        report["range"] = json!(basis.range);
-        report["range_unit"] = basis.unit.into();
-        report["residual"] = json!(basis.residual);
+impl<'a> Along<'a> {
+    fn new(found: &'a MeasuredDirection) -> Self {
+        Self {
+            a_gf_per_cm: Found::new(&found.a),
+            b: Found::new(&found.b),
+            bending_gf_cm: Found::new(&found.bending),
+            shear_gf_per_cm: Found::new(&found.shear),
+            doubts: in_text(&found.doubts),
+        }
     }
-    report
+}
+
+impl<'a> Found<'a> {
+    fn new(finding: &'a Finding) -> Self {
+        let rests_on = |basis: &Basis| RestsOn {
+            used: basis.used,
+            of: basis.of,
+            range: basis.range,
+            range_unit: basis.unit,
+            residual: basis.residual,
+        };
+        Self {
+            value: finding.estimate.value,
+            half_width_95: finding.estimate.half_width,
+            how: &finding.how,
+            basis: finding.basis.as_ref().map(rests_on),
+        }
+    }
+}
+
+fn in_text(doubts: &[Doubt]) -> Vec<String> {
+    doubts.iter().map(ToString::to_string).collect()
 }
 
 /// The measured S–S curve of a direction and the law found in it, where a curve was measured.

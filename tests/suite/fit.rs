@@ -470,7 +470,10 @@ const IN_RECORDS: &[Slip] = &[
         "curve.csv",
         "strain_percent",
         "strain",
-        &["curve.csv:2:1: column strain is 1.0; allowed: "],
+        &[
+            "curve.csv:3:1: column strain is 2.0; allowed: -0.1 to 1 (looks like percent: name the \
+             column strain_percent)",
+        ],
     ),
     (
         "curve.csv",

@@ -29,6 +29,8 @@ const LEAST: usize = 4;
 const HOLDS: f64 = 0.05;
 /// Points that a part of a curve must keep.
 const PART: usize = 10;
+/// Steps of the last digit below which a reading counts for less than half.
+const DIGITS: f64 = 30.0;
 
 /// What is wished of a fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -61,9 +63,9 @@ pub struct PowerFit {
     pub b: Estimate,
     /// Relative error, root mean square over the points used [-].
     pub residual: f64,
-    /// Least and greatest strain used [-].
+    /// Least and greatest strain used, readings near the last digit apart [-].
     pub strains: [f64; 2],
-    /// Least and greatest tension used [gf/cm].
+    /// Their tensions [gf/cm].
     pub tensions: [f64; 2],
     /// What became of each point, in their order.
     pub fates: Vec<Fate>,
@@ -148,6 +150,8 @@ fn least_step(readings: &[Reading]) -> f64 {
 /// T = exp(height + power·(ln S − centre)), and how its readings lie about it.
 #[derive(Clone, Debug)]
 struct Law {
+    /// q [gf/cm].
+    step: f64,
     centre: f64,
     height: f64,
     power: f64,
@@ -168,6 +172,7 @@ impl Law {
     fn fit(readings: &[Reading], step: f64) -> Option<Self> {
         let (slope, level) = start(readings)?;
         let mut law = Self {
+            step,
             centre: 0.0,
             height: level,
             power: slope,
@@ -179,7 +184,7 @@ impl Law {
             misfit: 0.0,
         };
         for _ in 0..100 {
-            if law.step(step) < 1e-12 {
+            if law.improve() < 1e-12 {
                 break;
             }
         }
@@ -192,10 +197,10 @@ impl Law {
     }
 
     /// One weighted Gauss–Newton step; how far it went.
-    fn step(&mut self, least_step: f64) -> f64 {
+    fn improve(&mut self) -> f64 {
         let sized = |one: &Reading| {
             let tension = self.tension(one.ln_strain);
-            let size = tension + 30.0 * least_step;
+            let size = tension + DIGITS * self.step;
             ((one.tension - tension) / size, tension / size)
         };
         let (errors, shares): (Vec<f64>, Vec<f64>) = self.readings.iter().map(sized).unzip();
@@ -262,6 +267,12 @@ impl Law {
             .map(|(one, _)| one)
     }
 
+    /// Of those, the ones well above the last digit.
+    fn telling(&self) -> impl Iterator<Item = &Reading> {
+        self.kept()
+            .filter(|one| self.tension(one.ln_strain) >= DIGITS * self.step)
+    }
+
     fn result(&self, points: &[[f64; 2]], rising: usize, doubts: Vec<Doubt>) -> PowerFit {
         let count = self.readings.len();
         let variance = robust::variance(&self.errors, self.deviation, 2);
@@ -281,18 +292,19 @@ impl Law {
             a: Estimate::new(a, a * libm::expm1(half(ln_a))),
             b: Estimate::new(self.power - 1.0, half(power)),
             residual: self.residual,
-            strains: ends(self.kept().map(|one| one.strain)),
-            tensions: ends(self.kept().map(|one| one.tension)),
+            strains: ends(self.telling().map(|one| one.strain)),
+            tensions: ends(self.telling().map(|one| one.tension)),
             fates,
             doubts,
         }
     }
 }
 
+/// Least and greatest; 0 and 0 of none.
 fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    values.fold([f64::MAX, 0.0], |[low, high], value| {
-        [value.min(low), value.max(high)]
-    })
+    let ends = values.map(|value| [value, value]);
+    ends.reduce(|[low, high], [value, _]| [low.min(value), high.max(value)])
+        .unwrap_or_default()
 }
 
 fn rms_of_kept(errors: &[f64], deviation: f64) -> f64 {
