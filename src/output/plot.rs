@@ -86,7 +86,8 @@ fn draw(plot: &Plot, area: &Area<'_>) -> Result<(), Box<dyn Error>> {
     let (x_number, y_number) = (numbers(span(plot, 0)), numbers(span(plot, 1)));
     chart
         .configure_mesh()
-        .light_line_style(WHITE)
+        .max_light_lines(1)
+        .max_light_lines(1)
         .bold_line_style(RGBColor(225, 225, 225))
         .x_desc(&plot.x_label)
         .y_desc(&plot.y_label)
@@ -117,9 +118,9 @@ fn draw_series<'a>(
     let points: Vec<(f64, f64)> = drawn(series).map(|[x, y]| (x, y)).collect();
     let shapes: Vec<DynElement<'_, SVGBackend<'_>, (f64, f64)>> = match mark {
         Mark::Line => vec![PathElement::new(points, colour.stroke_width(2)).into_dyn()],
-        Mark::Dots => each(points, |at| Circle::new(at, 4, colour.filled()).into_dyn()),
-        Mark::Rings => each(points, |at| Circle::new(at, 4, thin(colour)).into_dyn()),
-        Mark::Crosses => each(points, |at| Cross::new(at, 5, thin(colour)).into_dyn()),
+        Mark::Dots => each(points, |at| Circle::new(at, 3, colour.filled()).into_dyn()),
+        Mark::Rings => each(points, |at| Circle::new(at, 3, thin(colour)).into_dyn()),
+        Mark::Crosses => each(points, |at| Cross::new(at, 4, thin(colour)).into_dyn()),
     };
     chart
         .draw_series(shapes)?

@@ -1,9 +1,12 @@
-//! No bytes make the readers of scenes, fabrics and body files panic: each is read, or refused
+//! No bytes make the readers of scenes, fabrics, body files and measurement sheets panic: each is read, or refused
 //! with a message that begins with a file's name.
 //!
 //! `PROPTEST_CASES=100000 cargo test --test suite fuzz` looks longer.
 
-use crate::trial::SCENE;
+use crate::{
+    fit::slips::{CURVE, FAST, KES, SHEAR, SHEET},
+    trial::SCENE,
+};
 use proptest::prelude::*;
 use soen::{fabric::swatch, scene};
 use std::fs;
@@ -135,6 +138,28 @@ fn read(scene: &[u8], fabric: &[u8], body: &[u8]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
+/// Reads a measurement sheet whose records are files beside it.
+fn measure(sheet: &[u8], curve: &[u8], shear: &[u8]) -> Result<(), TestCaseError> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("sheet.toml"), sheet).unwrap();
+    fs::write(path("curve.csv"), curve).unwrap();
+    fs::write(path("shear.csv"), shear).unwrap();
+    match scene::measured(&path("sheet.toml")) {
+        Ok(measured) => {
+            let text = soen::output::fabric_file(&measured);
+            fs::write(path("found.toml"), text).unwrap();
+            let found = scene::fabric(path("found.toml").to_str().unwrap());
+            prop_assert_eq!(found.unwrap(), measured.fabric);
+        }
+        Err(error) => {
+            let message = error.to_string();
+            prop_assert!(message.lines().all(|line| line.chars().count() < 2000));
+        }
+    }
+    Ok(())
+}
+
 use soen::solver::Placement;
 
 fn whole() -> (String, &'static str) {
@@ -180,10 +205,25 @@ proptest! {
     }
 
     #[test]
+    fn a_spoilt_sheet_is_read_or_refused(slips in slips()) {
+        for sheet in [SHEET, KES, FAST] {
+            measure(&spoilt(sheet, &slips), CURVE.as_bytes(), SHEAR.as_bytes())?;
+        }
+    }
+
+    #[test]
+    fn a_spoilt_record_is_read_or_refused(slips in slips()) {
+        measure(SHEET.as_bytes(), &spoilt(CURVE, &slips), SHEAR.as_bytes())?;
+        measure(SHEET.as_bytes(), CURVE.as_bytes(), &spoilt(SHEAR, &slips))?;
+    }
+
+    #[test]
     fn any_bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
         let (scene, fabric) = whole();
         read(&bytes, fabric.as_bytes(), BODY.as_bytes())?;
         read(scene.as_bytes(), &bytes, BODY.as_bytes())?;
         read(scene.as_bytes(), fabric.as_bytes(), &bytes)?;
+        measure(&bytes, CURVE.as_bytes(), SHEAR.as_bytes())?;
+        measure(SHEET.as_bytes(), &bytes, &bytes)?;
     }
 }

@@ -45,28 +45,17 @@ impl Record {
         let mut lines = lines(&document.text);
         let none = || document.error_at(None, Fault::NoReadings);
         let header = lines.next().ok_or_else(none)?;
-        let parted_by = [b';', b'\t']
-            .into_iter()
-            .find(|&byte| header.text.contains(char::from(byte)));
-        let parted_by = parted_by.unwrap_or(b',');
-        let names = fields(header.text, parted_by);
-        let mut columns = [""; 2];
-        let mut places = [0; 2];
-        for (which, choice) in choices.into_iter().enumerate() {
-            (columns[which], places[which]) = column(&names, choice)
-                .map_err(|fault| document.error_at(Some(header.span()), fault))?;
-        }
-        let mut rows = Vec::new();
-        for line in lines {
-            let row = line.row(parted_by, names.len(), places, columns);
-            rows.push(row.map_err(|(span, fault)| document.error_at(Some(span), fault))?);
-        }
+        let layout = Layout::of(&header, choices)
+            .map_err(|fault| document.error_at(Some(header.span()), *fault))?;
+        let rows: Vec<Row> = lines
+            .map(|line| line.row(&document, &layout))
+            .collect::<Result<_, _>>()?;
         if rows.is_empty() {
             return Err(none());
         }
         Ok(Self {
+            columns: layout.columns,
             document,
-            columns,
             rows,
         })
     }
@@ -94,47 +83,69 @@ impl Record {
     }
 }
 
+/// What the header says.
+struct Layout {
+    parted_by: u8,
+    /// Columns in all.
+    width: usize,
+    /// The two that are read, and where they are.
+    columns: [&'static str; 2],
+    places: [usize; 2],
+}
+
+impl Layout {
+    fn of(header: &Line<'_>, choices: [&[&'static str]; 2]) -> Result<Self, Box<Fault>> {
+        let mut marks = [b';', b'\t'].into_iter();
+        let mark = marks.find(|&mark| header.text.contains(char::from(mark)));
+        let parted_by = mark.unwrap_or(b',');
+        let names = fields(header.text, parted_by);
+        let [first, second] = choices.map(|choice| column(&names, choice));
+        let ((x, at_x), (y, at_y)) = (first?, second?);
+        Ok(Self {
+            parted_by,
+            width: names.len(),
+            columns: [x, y],
+            places: [at_x, at_y],
+        })
+    }
+}
+
 impl Line<'_> {
     fn span(&self) -> Range<usize> {
         self.start..self.start + self.text.len()
     }
 
-    fn row(
-        &self,
-        parted_by: u8,
-        width: usize,
-        places: [usize; 2],
-        columns: [&'static str; 2],
-    ) -> Result<Row, (Range<usize>, Fault)> {
-        let fields = fields(self.text, parted_by);
-        if fields.len() != width {
+    fn row(&self, document: &Document, layout: &Layout) -> Result<Row, SceneError> {
+        let fields = fields(self.text, layout.parted_by);
+        if fields.len() != layout.width {
+            let commas = fields.len() > layout.width && layout.parted_by == b',';
             let fault = Fault::Columns {
                 found: fields.len(),
-                header: width,
-                hint: if fields.len() > width && parted_by == b',' {
+                header: layout.width,
+                hint: if commas {
                     " (decimal commas? write decimal points)"
                 } else {
                     ""
                 },
             };
-            return Err((self.span(), fault));
+            return Err(document.error_at(Some(self.span()), fault));
         }
-        let mut row = Row {
-            values: [0.0; 2],
-            spans: places.map(|place| self.field_span(parted_by, place)),
-        };
-        for (which, place) in places.into_iter().enumerate() {
-            let written = &fields[place];
-            row.values[which] = number(written).map_err(|allowed| {
+        let spans = layout
+            .places
+            .map(|place| self.field_span(layout.parted_by, place));
+        let mut values = [0.0; 2];
+        for which in 0..2 {
+            let written = &fields[layout.places[which]];
+            values[which] = number(written).map_err(|allowed| {
                 let fault = Fault::NotAllowed {
-                    key: format!("column {}", columns[which]),
+                    key: format!("column {}", layout.columns[which]),
                     value: format!("{written:?}"),
                     allowed: allowed.into(),
                 };
-                (row.spans[which].clone(), fault)
+                document.error_at(Some(spans[which].clone()), fault)
             })?;
         }
-        Ok(row)
+        Ok(Row { values, spans })
     }
 
     /// Where a field stands; the whole line where quotes hide it.
@@ -187,24 +198,24 @@ fn fields(line: &str, parted_by: u8) -> Vec<String> {
 }
 
 /// The one column of a choice that the header has.
-fn column(names: &[String], choice: &[&'static str]) -> Result<(&'static str, usize), Fault> {
+fn column(names: &[String], choice: &[&'static str]) -> Result<(&'static str, usize), Box<Fault>> {
     let found: Vec<(&'static str, usize)> = choice
         .iter()
         .filter_map(|name| Some((*name, names.iter().position(|known| known == name)?)))
         .collect();
     match found[..] {
         [one] => Ok(one),
-        [] => Err(Fault::MissingColumn {
+        [] => Err(Box::new(Fault::MissingColumn {
             wanted: choice.join(", "),
             found: names.join(", "),
             nearest: names
                 .iter()
                 .find_map(|name| nearest(name, choice.iter().copied())),
-        }),
-        _ => Err(Fault::TooManyKeys {
+        })),
+        _ => Err(Box::new(Fault::TooManyKeys {
             found: found.iter().map(|one| one.0).collect::<Vec<_>>().join(", "),
             table: String::new(),
-        }),
+        })),
     }
 }
 
