@@ -47,8 +47,9 @@
 //! # Code map
 //! Below, in the order to read it in; a module names only modules above it, which a test keeps
 //! true (`tests/suite/layers.rs`). [`scene::read`] gives a [`solver::Problem`], [`solver::settle`]
-//! takes it to a [`solver::Settled`], and [`output`] makes files of that. The command line is
-//! `src/bin/soen`, the first user of this library.
+//! takes it to a [`solver::Settled`], and [`output`] makes files of that; [`scene::measured`] finds a
+//! [`fabric::Fabric`] in what a laboratory measured. The command line is `src/bin/soen`, the first
+//! user of this library.
 //!
 //! # What always holds
 //! - A drape that did not converge is a value with its certificate, not an `Err`.

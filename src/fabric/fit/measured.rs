@@ -176,7 +176,7 @@ impl MeasuredDirection {
 }
 
 impl Measured {
-    /// A cloth and what its numbers rest on; those of its directions are put into it, to six digits.
+    /// A cloth, its weight and thickness to six digits too, and what its numbers rest on.
     ///
     /// # Errors
     /// [`InvalidFabric`] where a value that was found is none that a cloth can have.
@@ -189,8 +189,6 @@ impl Measured {
         let fabric = Fabric {
             weight: six_digits(cloth.weight),
             thickness: six_digits(cloth.thickness),
-            warp: warp.direction(),
-            weft: weft.direction(),
             ..cloth
         }
         .checked()?;

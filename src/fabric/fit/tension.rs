@@ -184,7 +184,7 @@ impl Law {
             misfit: 0.0,
         };
         for _ in 0..100 {
-            if law.improve() < 1e-12 {
+            if law.improve() < 1e-10 {
                 break;
             }
         }

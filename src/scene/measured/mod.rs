@@ -15,7 +15,7 @@ use super::{
     error::{Fault, SceneError},
 };
 use crate::fabric::{
-    Direction, Fabric, Friction, InvalidFabric, Tension, Yarn,
+    Fabric, Friction, InvalidFabric, Tension, Yarn,
     fit::{Doubt, FastReadings, Finding, KesReadings, Measured, MeasuredDirection, Unfit},
 };
 use format::{FastDirectionTable, FastTable, KesDirectionTable, KesTable, SheetFile};
@@ -44,18 +44,12 @@ pub fn measured(path: &Path) -> Result<Measured, SceneError> {
     } else if let Some(fast) = &sheet.fast {
         of_fast(&top.key("fast"), fast, weight)?
     } else {
-        let (warp, weft) = both(&top, &sheet.warp, &sheet.weft)?;
-        [(Yarn::Warp, warp), (Yarn::Weft, weft)]
-            .map(|(yarn, table)| strips::direction(&along(&top, yarn), table, yarn, weight))
-            .into_both()?
+        each(both(&top, &sheet.warp, &sheet.weft)?, |yarn, table| {
+            strips::direction(&along(&top, yarn), table, yarn, weight)
+        })?
     };
     let (friction, doubts) = friction(&top, &sheet)?;
-    // The laws are put in by `Measured::new`.
-    let empty = Direction {
-        tension: Tension::Linear { modulus: 1.0 },
-        bending: 0.0,
-        shear: 0.0,
-    };
+    let [warp, weft] = &directions;
     let cloth = Fabric {
         name: sheet.name,
         source: sheet.source,
@@ -63,8 +57,8 @@ pub fn measured(path: &Path) -> Result<Measured, SceneError> {
         thickness,
         friction,
         twist: 0.0,
-        warp: empty.clone(),
-        weft: empty,
+        warp: warp.direction(),
+        weft: weft.direction(),
     };
     let file = path.display().to_string();
     let found = Measured::new(cloth, file, directions, doubts);
@@ -148,22 +142,18 @@ fn both<'t, T>(
     }
 }
 
-trait IntoBoth {
-    fn into_both(self) -> Result<[MeasuredDirection; 2], SceneError>;
-}
-
-impl IntoBoth for [Result<MeasuredDirection, SceneError>; 2] {
-    fn into_both(self) -> Result<[MeasuredDirection; 2], SceneError> {
-        let [warp, weft] = self;
-        Ok([warp?, weft?])
-    }
+/// What is found along each direction.
+fn each<T>(
+    (warp, weft): (&T, &T),
+    find: impl Fn(Yarn, &T) -> Result<MeasuredDirection, SceneError>,
+) -> Result<[MeasuredDirection; 2], SceneError> {
+    Ok([find(Yarn::Warp, warp)?, find(Yarn::Weft, weft)?])
 }
 
 fn of_kes(at: &At<'_>, table: &KesTable) -> Result<[MeasuredDirection; 2], SceneError> {
-    let (warp, weft) = both(at, &table.warp, &table.weft)?;
-    [(Yarn::Warp, warp), (Yarn::Weft, weft)]
-        .map(|(yarn, table)| kes_direction(&along(at, yarn), table, yarn))
-        .into_both()
+    each(both(at, &table.warp, &table.weft)?, |yarn, table| {
+        kes_direction(&along(at, yarn), table, yarn)
+    })
 }
 
 fn kes_direction(
@@ -251,7 +241,6 @@ fn of_fast(
     table: &FastTable,
     weight: f64,
 ) -> Result<[MeasuredDirection; 2], SceneError> {
-    let (warp, weft) = both(at, &table.warp, &table.weft)?;
     let fraction = [(100.0, "a fraction")];
     let bias = sized(
         &at.key("eb5_percent"),
@@ -260,9 +249,9 @@ fn of_fast(
         "%",
         &fraction,
     )?;
-    [(Yarn::Warp, warp), (Yarn::Weft, weft)]
-        .map(|(yarn, table)| fast_direction(&along(at, yarn), table, yarn, (bias, weight)))
-        .into_both()
+    each(both(at, &table.warp, &table.weft)?, |yarn, table| {
+        fast_direction(&along(at, yarn), table, yarn, (bias, weight))
+    })
 }
 
 fn fast_direction(

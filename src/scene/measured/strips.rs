@@ -75,7 +75,8 @@ fn tension(at: &At<'_>, table: &CurveTable, weight: f64) -> Result<Curve, SceneE
     ];
     let points = converted(&record, factors);
     plausible_strains(&record, &points, factors[0])?;
-    inside(&record, 1, &points, factors[1], -1e3..=1e6)?;
+    // The strongest canvas breaks at some 1e5 gf/cm.
+    inside(&record, 1, &points, factors[1], -1e3..=1e5)?;
     let percent = |key: &str, value| {
         let at = at.key(key);
         sized(&at, value, 0.0..=100.0, "%", &[]).map(|percent| 0.01 * percent)
@@ -256,7 +257,15 @@ fn inside(
         .position(|point| !range.contains(&point[which]));
     outside.map_or(Ok(()), |row| {
         let (low, high) = (digits(range.start() / factor), digits(range.end() / factor));
-        Err(record.not_allowed(row, which, format!("{low} to {high}")))
+        let hint = match record.columns()[which] {
+            "force_n" => looks_like(
+                points[row][which] / factor,
+                &(low..=high),
+                &[(1.0 / NEWTON, "gf")],
+            ),
+            _ => String::new(),
+        };
+        Err(record.not_allowed(row, which, format!("{low} to {high}{hint}")))
     })
 }
 

@@ -137,6 +137,12 @@ pub(crate) const IN_SHEETS: &[Slip] = &[
     (
         "sheet.toml",
         "csv = \"curve.csv\"",
+        "csv = \"curve.csv\", slack_percent = -1",
+        &["warp.tension.slack_percent is -1; allowed: 0 to 100 %"],
+    ),
+    (
+        "sheet.toml",
+        "csv = \"curve.csv\"",
         "csv = \"curve.csv\", up_to_strain_percent = 200",
         &["warp.tension.up_to_strain_percent is 200; allowed: 0 to 100 %"],
     ),
@@ -272,6 +278,12 @@ pub(crate) const IN_RECORDS: &[Slip] = &[
         "\n1.0,1.0\n2.0,5.6\n3.0,15.6\n4.0,31.2\n5.0,52.0\n6.0,88.0\n",
         "\n",
         &["curve.csv: has no readings"],
+    ),
+    (
+        "curve.csv",
+        CURVE,
+        "strain_percent;force_n\n1.0;250\n2.0;1400\n3.0;3900\n4.0;7800\n5.0;13000\n",
+        &["missing key \"width_cm (for the column force_n)\" in [warp.tension]"],
     ),
     ("curve.csv", CURVE, "", &["curve.csv: has no readings"]),
     ("curve.csv", CURVE, "\u{0}", &["curve.csv: is binary"]),
