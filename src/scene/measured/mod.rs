@@ -161,6 +161,38 @@ fn kes_direction(
     table: &KesDirectionTable,
     yarn: Yarn,
 ) -> Result<MeasuredDirection, SceneError> {
+    let readings = kes_readings(at, table)?;
+    let key = if table.lt.is_some() {
+        "lt"
+    } else {
+        "wt_gf_cm_per_cm2"
+    };
+    let (read, doubts) = readings
+        .direction()
+        .map_err(|error| unfit(&at.key(key), error))?;
+    let direction = read.direction();
+    let (a, b) = match direction.tension {
+        Tension::Power { a, b } => (a, b),
+        Tension::Linear { .. } | Tension::Points(_) => (0.0, 0.0),
+    };
+    Ok(MeasuredDirection {
+        yarn,
+        a: Finding::given(a, "KES-F: the power law through EMT and LT"),
+        b: Finding::given(b, "KES-F: 2/LT − 2"),
+        bending: Finding::given(direction.bending, "KES-F: B"),
+        shear: Finding::given(direction.shear, "KES-F: G, per radian"),
+        doubts,
+        curve: None,
+    })
+}
+
+fn kes_readings(at: &At<'_>, table: &KesDirectionTable) -> Result<KesReadings, SceneError> {
+    if table.lt.is_none() && table.wt_gf_cm_per_cm2.is_none() {
+        return Err(at.error(Fault::MissingKey {
+            key: "one of lt, wt_gf_cm_per_cm2".into(),
+            table: at.name(),
+        }));
+    }
     let checked = |key, value, range, unit| sized(&at.key(key), value, range, unit, &[]);
     let maybe = |key, value: Option<f64>, range, unit| {
         value
@@ -169,7 +201,7 @@ fn kes_direction(
     };
     maybe("rt_percent", table.rt_percent, 0.0..=100.0, "%")?;
     let emt_slips = [(100.0, "a fraction")];
-    let readings = KesReadings {
+    Ok(KesReadings {
         lt: maybe("lt", table.lt, 0.01..=2.0, "")?,
         wt: maybe(
             "wt_gf_cm_per_cm2",
@@ -205,34 +237,6 @@ fn kes_direction(
             "gf·cm/cm",
         )?,
         miu: maybe("miu", table.miu, 0.0..=2.0, "")?,
-    };
-    if readings.lt.is_none() && readings.wt.is_none() {
-        return Err(at.error(Fault::MissingKey {
-            key: "one of lt, wt_gf_cm_per_cm2".into(),
-            table: at.name(),
-        }));
-    }
-    let key = if table.lt.is_some() {
-        "lt"
-    } else {
-        "wt_gf_cm_per_cm2"
-    };
-    let (read, doubts) = readings
-        .direction()
-        .map_err(|error| unfit(&at.key(key), error))?;
-    let direction = read.direction();
-    let (a, b) = match direction.tension {
-        Tension::Power { a, b } => (a, b),
-        Tension::Linear { .. } | Tension::Points(_) => (0.0, 0.0),
-    };
-    Ok(MeasuredDirection {
-        yarn,
-        a: Finding::given(a, "KES-F: the power law through EMT and LT"),
-        b: Finding::given(b, "KES-F: 2/LT − 2"),
-        bending: Finding::given(direction.bending, "KES-F: B"),
-        shear: Finding::given(direction.shear, "KES-F: G, per radian"),
-        doubts,
-        curve: None,
     })
 }
 
@@ -260,28 +264,7 @@ fn fast_direction(
     yarn: Yarn,
     (bias, weight): (f64, f64),
 ) -> Result<MeasuredDirection, SceneError> {
-    let extension = |key, value| sized(&at.key(key), value, 0.0..=80.0, "%", &[]);
-    let rigidity = table.bending_rigidity_micronewton_m;
-    let rigidity = rigidity.map(|value| {
-        let at = at.key("bending_rigidity_micronewton_m");
-        sized(&at, value, 0.01..=2000.0, "µN·m", &[])
-    });
-    let readings = FastReadings {
-        extensions: [
-            extension("e5_percent", table.e5_percent)?,
-            extension("e20_percent", table.e20_percent)?,
-            extension("e100_percent", table.e100_percent)?,
-        ],
-        bias,
-        length: sized(
-            &at.key("bending_length_mm"),
-            table.bending_length_mm,
-            5.0..=100.0,
-            "mm",
-            &[(10.0, "cm")],
-        )?,
-        rigidity: rigidity.transpose()?,
-    };
+    let readings = fast_readings(at, table, bias)?;
     let ([a, b], residual) = readings
         .power_law()
         .map_err(|error| unfit(&at.key("e5_percent"), error))?;
@@ -305,6 +288,35 @@ fn fast_direction(
             .into_iter()
             .collect(),
         curve: None,
+    })
+}
+
+fn fast_readings(
+    at: &At<'_>,
+    table: &FastDirectionTable,
+    bias: f64,
+) -> Result<FastReadings, SceneError> {
+    let extension = |key, value| sized(&at.key(key), value, 0.0..=80.0, "%", &[]);
+    let rigidity = table.bending_rigidity_micronewton_m;
+    let rigidity = rigidity.map(|value| {
+        let at = at.key("bending_rigidity_micronewton_m");
+        sized(&at, value, 0.01..=2000.0, "µN·m", &[])
+    });
+    Ok(FastReadings {
+        extensions: [
+            extension("e5_percent", table.e5_percent)?,
+            extension("e20_percent", table.e20_percent)?,
+            extension("e100_percent", table.e100_percent)?,
+        ],
+        bias,
+        length: sized(
+            &at.key("bending_length_mm"),
+            table.bending_length_mm,
+            5.0..=100.0,
+            "mm",
+            &[(10.0, "cm")],
+        )?,
+        rigidity: rigidity.transpose()?,
     })
 }
 

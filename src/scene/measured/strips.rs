@@ -150,13 +150,55 @@ fn bending(
 }
 
 fn shear(at: &At<'_>, table: &RecordTable) -> Result<(Finding, Vec<Doubt>), SceneError> {
+    let width = sized(
+        &at.key("width_cm"),
+        table.width_cm,
+        0.5..=50.0,
+        "cm",
+        &[(0.1, "mm")],
+    )?;
+    let newtons = [(NEWTON, "newtons")];
+    let load = sized(
+        &at.key("load_gf"),
+        table.load_gf,
+        0.0..=5000.0,
+        "gf",
+        &newtons,
+    )?;
+    let angles = angles(at, table)?;
+    let test = ShearRecord {
+        readings: &sheared(at, table, width)?,
+        load,
+        width,
+        angles,
+    };
+    let fit = fit::shear(&test).map_err(|error| unfit(&at.key("csv"), error))?;
+    let finding = fit.finding(&table.csv.display().to_string(), angles);
+    Ok((finding, fit.doubts))
+}
+
+/// Least and greatest angle to use [rad].
+fn angles(at: &At<'_>, table: &RecordTable) -> Result<[f64; 2], SceneError> {
+    // KES-F takes G over this range, where the branches are straight.
+    let (from, to) = (table.from_deg.unwrap_or(0.5), table.to_deg.unwrap_or(5.0));
+    for (key, degrees) in [("from_deg", from), ("to_deg", to)] {
+        sized(&at.key(key), degrees, 0.0..=30.0, "degrees", &[])?;
+    }
+    if from >= to {
+        return Err(at
+            .key("from_deg")
+            .not_allowed(format!("below to_deg, {to}")));
+    }
+    Ok([from, to].map(f64::to_radians))
+}
+
+/// Readings of tan θ [-] and force [gf].
+fn sheared(at: &At<'_>, table: &RecordTable, width: f64) -> Result<Vec<[f64; 2]>, SceneError> {
     const ANGLES: &[&str] = &["angle_deg", "displacement_mm", "displacement_cm"];
     const FORCES: &[&str] = &["force_gf", "force_n", "force_gf_per_cm"];
     let record = Record::open(&at.key("csv").file(&table.csv)?, [ANGLES, FORCES])?;
     let [angle, force] = record.columns();
     let gap = || needed(at, "gap_cm", table.gap_cm, 0.5..=50.0, angle);
-    let mm = [(0.1, "mm")];
-    let width = sized(&at.key("width_cm"), table.width_cm, 0.5..=50.0, "cm", &mm)?;
     let factors = [
         match angle {
             "angle_deg" => 1.0,
@@ -170,50 +212,16 @@ fn shear(at: &At<'_>, table: &RecordTable) -> Result<(Finding, Vec<Doubt>), Scen
         },
     ];
     let mut readings = converted(&record, factors);
-    if angle == "angle_deg" {
-        plausible_angles(&record, &readings)?;
-        for reading in &mut readings {
-            reading[0] = libm::tan(reading[0].to_radians());
-        }
-    } else {
+    inside(&record, 1, &readings, factors[1], -1e5..=1e5)?;
+    if angle != "angle_deg" {
         inside(&record, 0, &readings, factors[0], -1.0..=1.0)?;
+        return Ok(readings);
     }
-    inside(&record, 1, &readings, factors[1], -1e6..=1e6)?;
-    let degrees = |key: &str, value: Option<f64>, usual| {
-        sized(
-            &at.key(key),
-            value.unwrap_or(usual),
-            0.0..=30.0,
-            "degrees",
-            &[],
-        )
-    };
-    let (from, to) = (
-        degrees("from_deg", table.from_deg, 0.5)?,
-        degrees("to_deg", table.to_deg, 5.0)?,
-    );
-    if from >= to {
-        return Err(at
-            .key("from_deg")
-            .not_allowed(format!("below to_deg, {to}")));
+    plausible_angles(&record, &readings)?;
+    for reading in &mut readings {
+        reading[0] = libm::tan(reading[0].to_radians());
     }
-    let newtons = [(NEWTON, "newtons")];
-    let angles = [from, to].map(f64::to_radians);
-    let test = ShearRecord {
-        readings: &readings,
-        load: sized(
-            &at.key("load_gf"),
-            table.load_gf,
-            0.0..=5000.0,
-            "gf",
-            &newtons,
-        )?,
-        width,
-        angles,
-    };
-    let fit = fit::shear(&test).map_err(|error| unfit(&at.key("csv"), error))?;
-    let finding = fit.finding(&table.csv.display().to_string(), angles);
-    Ok((finding, fit.doubts))
+    Ok(readings)
 }
 
 fn converted(record: &Record, factors: [f64; 2]) -> Vec<[f64; 2]> {

@@ -62,8 +62,9 @@ fn cloth_that_stretches_far_needs_30_readings_only() {
 /// An error of 1 % in strain is one of B + 1 per cent in tension: it takes (B + 1)² as many.
 #[test]
 fn errors_of_1_percent_in_strain_as_well_take_a_dense_record() {
-    for (name, [a, b, ..]) in CLOTHS {
-        for seed in 0..2 {
+    // The limpest and the stiffest.
+    for (name, [a, b, ..]) in [CLOTHS[2], CLOTHS[9]] {
+        for seed in 0..3 {
             let mut noise = Noise::new(seed);
             let spoilt = |[strain, tension]: &[f64; 2]| {
                 [noise.about(*strain, 0.01), noise.about(*tension, 0.01)]
