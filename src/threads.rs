@@ -18,6 +18,23 @@ pub(crate) fn map<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync + Send
     }
 }
 
+/// The same where each call is long: however few there are, all cores share them.
+pub(crate) fn map_long<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
+    #[cfg(feature = "threads")]
+    {
+        use rayon::prelude::*;
+        (0..count)
+            .into_par_iter()
+            .with_max_len(1)
+            .map(work)
+            .collect()
+    }
+    #[cfg(not(feature = "threads"))]
+    {
+        (0..count).map(work).collect()
+    }
+}
+
 /// Terms that are summed one after the other: a sum has the same bits however it is shared out.
 const BLOCK: usize = 1024;
 

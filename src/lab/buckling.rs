@@ -79,7 +79,7 @@ impl Buckling {
         while high - low > WITHIN * critical {
             let middle = 0.5 * (low + high);
             let rest = self.stand(fabric, middle, watch)?;
-            if off_plane(&rest) > BUCKLED * middle {
+            if rest.off_plane() > BUCKLED * middle {
                 (high, found) = (middle, Some(rest));
             } else {
                 low = middle;
@@ -112,11 +112,6 @@ impl Buckling {
         problem.holds = vec![hold(Edge::XMin, true, Vec3::zeros())];
         Rest::of(problem, watch)
     }
-}
-
-/// How far the tip is off the plane in which the strip was put up [cm].
-pub(super) fn off_plane(rest: &Rest) -> f64 {
-    rest.middle(Edge::XMax).y.abs()
 }
 
 impl Stood {

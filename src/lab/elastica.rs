@@ -1,5 +1,5 @@
-//! The heavy elastica: what a continuous strip does that is clamped level and bends under its own
-//! weight, without any lattice.
+//! The heavy elastica: what a continuous strip does that bends under its own weight, without any
+//! lattice: clamped level at one end, or at both as a heart.
 //!
 //! With s the rest length from the free end, δ the strip's angle to the vertical, W its weight and
 //! M its bending moment per curvature, equilibrium is `M·δ'' = W·s·(1 + S)·sin δ`, `δ'(0) = 0`, and
@@ -69,25 +69,10 @@ impl<'a> Heavy<'a> {
     /// From the free end at an angle to the root; `None` where the strip passes the level before.
     fn shoot(&self, angle: f64) -> Option<State> {
         let step = self.length / f64::from(STEPS);
-        let mut state = [angle, 0.0, 0.0, 0.0];
-        for k in 0..STEPS {
-            let s = f64::from(k) * step;
-            let along = |state: &State, by: f64, slope: &State| -> State {
-                core::array::from_fn(|axis| state[axis] + by * slope[axis])
-            };
-            let first = self.slope(s, &state);
-            let second = self.slope(s + 0.5 * step, &along(&state, 0.5 * step, &first));
-            let third = self.slope(s + 0.5 * step, &along(&state, 0.5 * step, &second));
-            let fourth = self.slope(s + step, &along(&state, step, &third));
-            for axis in 0..4 {
-                let middle = second[axis] + third[axis];
-                state[axis] += step / 6.0 * (first[axis] + 2.0 * middle + fourth[axis]);
-            }
-            if state[0] > FRAC_PI_2 {
-                return None;
-            }
-        }
-        Some(state)
+        let slope = |s: f64, state: &State| self.slope(s, state);
+        integrate([angle, 0.0, 0.0, 0.0], step, slope, |state| {
+            state[0] > FRAC_PI_2
+        })
     }
 
     fn slope(&self, s: f64, [angle, turn, ..]: &State) -> State {
@@ -104,6 +89,123 @@ impl<'a> Heavy<'a> {
             long * cosine,
         ]
     }
+}
+
+/// Weights through which a loop is led from none to its own.
+const WEIGHTS: u32 = 40;
+/// Newton's steps for each.
+const NEWTON: usize = 20;
+
+/// A strip whose ends are clamped together, both upwards.
+///
+/// From its lowest point on, s the rest length, θ the strip's angle to the level and H its level
+/// tension: `M·θ'' = (1 + S)·(H·sin θ − W·s·cos θ)`. Half a length on it is back in the middle, and
+/// θ = 3π/2. The curvature at the lowest point and H are found by Newton's method, the weight raised
+/// from none in steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Heart<'a> {
+    /// Weight per area [gf/cm²].
+    pub weight: f64,
+    /// Bending moment per width and curvature [gf·cm].
+    pub bending: f64,
+    /// How it stretches; not at all where absent.
+    pub tension: Option<&'a Tension>,
+    /// Length from clamp to clamp [cm].
+    pub length: f64,
+}
+
+impl Heart<'_> {
+    /// From the clamp to the lowest point [cm]; `None` where Newton's method does not find it.
+    #[must_use]
+    pub fn height(&self) -> Option<f64> {
+        let half = 0.5 * self.length;
+        // A circle is near what a loop without weight is.
+        let mut start = [1.5 * core::f64::consts::PI / half, 0.0];
+        let mut height = None;
+        for k in 0..=WEIGHTS {
+            let weight = self.weight * f64::from(k * k) / f64::from(WEIGHTS * WEIGHTS);
+            height = Some(Self { weight, ..*self }.close(&mut start)?);
+        }
+        height
+    }
+
+    /// Newton's method from a curvature and a level tension; leaves those that close the loop.
+    fn close(&self, start: &mut [f64; 2]) -> Option<f64> {
+        let half = 0.5 * self.length;
+        let steps = [1e-6 / half, 1e-6 * self.bending / (half * half)];
+        for _ in 0..NEWTON {
+            let [turn, off, height] = self.shoot(*start);
+            if turn.abs() < 1e-10 && off.abs() < 1e-10 * half {
+                return Some(height);
+            }
+            let beside = |axis: usize| {
+                let mut moved = *start;
+                moved[axis] += steps[axis];
+                let [there, off_there, _] = self.shoot(moved);
+                [
+                    (there - turn) / steps[axis],
+                    (off_there - off) / steps[axis],
+                ]
+            };
+            let ([a, c], [b, d]) = (beside(0), beside(1));
+            let over = 1.0 / (a * d - b * c);
+            start[0] -= (d * turn - b * off) * over;
+            start[1] -= (a * off - c * turn) * over;
+            if !(start[0].is_finite() && start[1].is_finite()) {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// How far the angle at the clamp is from 3π/2, how far the clamp is from the middle [cm], and
+    /// how high it is [cm].
+    fn shoot(&self, [curvature, level]: [f64; 2]) -> [f64; 3] {
+        let step = 0.5 * self.length / f64::from(STEPS);
+        let slope = |s: f64, [angle, turn, ..]: &State| -> State {
+            let (sine, cosine) = libm::sincos(*angle);
+            let below = self.weight * s;
+            let tension = (level * cosine + below * sine).max(0.0);
+            let long = 1.0 + self.tension.map_or(0.0, |law| law.strain_at(tension));
+            let couple = level * sine - below * cosine;
+            [
+                *turn,
+                long * couple / self.bending,
+                long * cosine,
+                long * sine,
+            ]
+        };
+        let [angle, _, off, height] =
+            integrate([0.0, curvature, 0.0, 0.0], step, slope, |_| false).unwrap_or_default();
+        [angle - 1.5 * core::f64::consts::PI, off, height]
+    }
+}
+
+/// The classic Runge–Kutta method over all steps; `None` where a state is `beyond`.
+fn integrate(
+    mut state: State,
+    step: f64,
+    slope: impl Fn(f64, &State) -> State,
+    beyond: impl Fn(&State) -> bool,
+) -> Option<State> {
+    let along = |state: &State, by: f64, slope: &State| -> State {
+        core::array::from_fn(|axis| state[axis] + by * slope[axis])
+    };
+    for k in 0..STEPS {
+        let s = f64::from(k) * step;
+        let first = slope(s, &state);
+        let second = slope(s + 0.5 * step, &along(&state, 0.5 * step, &first));
+        let third = slope(s + 0.5 * step, &along(&state, 0.5 * step, &second));
+        let fourth = slope(s + step, &along(&state, step, &third));
+        for axis in 0..4 {
+            let middle = second[axis] + third[axis];
+            state[axis] += step / 6.0 * (first[axis] + 2.0 * middle + fourth[axis]);
+        }
+        if beyond(&state) {
+            return None;
+        }
+    }
+    Some(state)
 }
 
 /// The bending moment per width and curvature [gf·cm] with which an inextensible strip of a weight
@@ -191,6 +293,36 @@ mod tests {
         };
         let [x, z] = strip.tip();
         assert!((libm::atan2(-z, x).to_degrees() - 41.5).abs() < 1e-6);
+    }
+
+    /// Peirce 1930: 0.1337 of the length without weight.
+    #[test]
+    fn a_heart_without_weight_is_as_high_as_peirce_found() {
+        let heart = Heart {
+            weight: 1e-12,
+            bending: 1.0,
+            tension: None,
+            length: 1.0,
+        };
+        let height = heart.height().unwrap();
+        assert!((height - 0.1337).abs() < 5e-5, "{height}");
+    }
+
+    /// Peirce's relation, c = ℓ₀·(cos θ/tan θ)^(1/3) with θ = 32.85°·d/ℓ₀, is an approximation.
+    #[test]
+    fn a_heart_that_hangs_is_within_a_tenth_of_peirces_bending() {
+        for length in [6.0, 8.0, 10.0, 12.0] {
+            let heart = Heart {
+                weight: 1.0,
+                bending: 1.0,
+                tension: None,
+                length,
+            };
+            let (height, weightless) = (heart.height().unwrap(), 0.1337 * length);
+            let angle = (32.85 * (height / weightless - 1.0)).to_radians();
+            let found = (weightless * (angle.cos() / angle.tan()).cbrt()).powi(3);
+            assert!((found - 1.0).abs() < 0.1, "{length}: {height}, {found}");
+        }
     }
 
     #[test]

@@ -31,6 +31,7 @@ mod slope;
 mod specimen;
 mod stick_slip;
 mod strip;
+mod verify;
 
 pub use bias_bend::{BiasBend, BiasBent};
 pub use buckling::{Buckling, CRITICAL, Stood};
@@ -45,8 +46,9 @@ pub use slope::{Slid, Slope};
 pub use specimen::{Cut, Rest};
 pub use stick_slip::{Slipped, StickSlip};
 pub use strip::{Hung, HungStrip, Pull, Pulled};
+pub use verify::{Allowed, Comparison, Named, verify};
 
 use crate::solver::Progress;
 
 /// Asked between sweeps whether to go on.
-pub type Watch<'w> = &'w mut dyn FnMut(&Progress) -> bool;
+pub type Watch<'w> = &'w mut (dyn FnMut(&Progress) -> bool + Send);

@@ -71,6 +71,9 @@ pub enum LabError {
         /// What is allowed.
         allowed: String,
     },
+    /// The watcher ended it.
+    #[error("stopped before it was measured")]
+    Stopped,
     /// The specimen has no such outline.
     #[error(transparent)]
     Outline(#[from] OutlineError),

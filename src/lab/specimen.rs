@@ -86,6 +86,11 @@ impl Rest {
         sum / nodes.len().max(1) as f64
     }
 
+    /// How far a strip's tip is off the plane y = 0 [cm].
+    pub(super) fn off_plane(&self) -> f64 {
+        self.middle(Edge::XMax).y.abs()
+    }
+
     /// The force that keeps an edge in its place [gf].
     pub(super) fn pull(&self, edge: Edge) -> Vec3 {
         let nodes = self.edge(edge);
@@ -153,9 +158,10 @@ pub(super) fn hold(edge: Edge, clamp: bool, carry: Vec3) -> Hold {
     Hold { grip, clamp, carry }
 }
 
-/// The cloth without weight: a machine shows forces with the specimen's own weight taken off.
+/// The cloth without weight, but for a thousandth that tells the solver which way slack cloth lies:
+/// a machine shows forces with the specimen's own weight taken off.
 pub(super) fn tared(fabric: &Fabric) -> Fabric {
-    let weight = 0.0;
+    let weight = 1e-3 * fabric.weight;
     Fabric {
         weight,
         ..fabric.clone()

@@ -148,13 +148,16 @@ impl Pull {
         };
         let mut curve = vec![[0.0, 0.0]];
         let mut certified = true;
-        let (_, mut rest) = pull(steps)?;
-        for step in 1..=steps {
+        let mut step = 1;
+        let rest = loop {
             let (strain, pulled) = pull(step)?;
             curve.push([strain, pulled.pull(Edge::XMax).x / width]);
             certified &= pulled.settled.converged;
-            rest = pulled;
-        }
+            if step == steps {
+                break pulled;
+            }
+            step += 1;
+        };
         Ok(Pulled {
             curve,
             certified,

@@ -8,6 +8,7 @@
 //! The same input gives the same bytes, whatever the number of threads.
 
 mod colour;
+mod comparisons;
 mod fitted;
 mod glb;
 mod heat;
@@ -24,6 +25,7 @@ mod shell;
 mod weave;
 mod write;
 
+pub use comparisons::{comparison_table, comparisons};
 pub use fitted::{fabric_file, fit_plot, fit_report};
 pub use glb::glb;
 pub use heat::{HeatMap, Map, UnknownMap};

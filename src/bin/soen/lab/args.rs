@@ -99,9 +99,24 @@ pub(crate) enum Test {
     Buckling {
         #[command(flatten)]
         of: Specimen,
+        #[command(flatten)]
+        along: Along,
+        /// Takes its yarns and its shear as rigid, as the theory does.
+        #[arg(long)]
+        rigid: bool,
         /// Twist modulus [gf·cm]; the fabric's where not given.
         #[arg(long, value_name = "GF_CM")]
         twist: Option<f64>,
+    },
+    /// A strip clamped upright is lowered onto a floor until its tip slips.
+    StickSlip {
+        #[command(flatten)]
+        of: Specimen,
+        #[command(flatten)]
+        along: Along,
+        /// Coulomb friction, up to 0.37; the fabric's against a body where not given.
+        #[arg(long, value_name = "µ")]
+        friction: Option<f64>,
     },
     /// Compares the simulated cloth with theory and with what was published, in one table.
     Verify {

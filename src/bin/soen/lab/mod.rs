@@ -1,6 +1,7 @@
 //! `soen lab …`: the laboratory's instruments on the simulated cloth.
 
 pub(crate) mod args;
+mod verify;
 
 use crate::{
     drape::stopped_by_ctrl_c,
@@ -12,8 +13,8 @@ use args::{Along, LabWish, Specimen, Test};
 use soen::{
     fabric::Fabric,
     lab::{
-        Cantilever, Capstan, Drapemeter, HeartLoop, HungStrip, LabError, Pull, Reading, ShearFrame,
-        Slope, Watch,
+        BiasBend, Buckling, Cantilever, Capstan, Drapemeter, HeartLoop, HungStrip, LabError, Pull,
+        Reading, ShearFrame, Slope, StickSlip, Watch,
     },
     output::{self, ClothMesh, View},
     scene,
@@ -93,7 +94,7 @@ pub(crate) fn lab(wish: &LabWish) -> Result<ExitCode, Failure> {
             .reading())
         }),
         Test::Drapemeter { of, seeds } => show(of, None, |fabric, watch| {
-            let usual = Drapemeter::default();
+            let usual = Drapemeter::of(fabric);
             let pitch = of.pitch.unwrap_or(usual.pitch);
             let meter = Drapemeter {
                 seeds: *seeds,
@@ -126,8 +127,60 @@ pub(crate) fn lab(wish: &LabWish) -> Result<ExitCode, Failure> {
             };
             Ok(capstan.run(fabric, watch)?.reading(&capstan))
         }),
-        _ => Err(Failure::Input("not yet".into())),
+        Test::BiasBend { of, twist } => show(of, None, |fabric, watch| {
+            let mut test = BiasBend::of(fabric);
+            test.twist = twist.unwrap_or(test.twist);
+            test.cells = cells_across(of.pitch, 2.0 * bending_length(fabric), test.cells);
+            Ok(test.run(fabric, watch)?.reading(&test))
+        }),
+        Test::Buckling {
+            of,
+            along,
+            twist,
+            rigid,
+        } => show(of, Some(along), |fabric, watch| {
+            let twist = twist.unwrap_or(fabric.twist);
+            let (yarn, rigid) = (along.direction.yarn(), *rigid);
+            let test = Buckling {
+                yarn,
+                rigid,
+                ..Buckling::default()
+            };
+            let cloth = Fabric {
+                twist,
+                ..fabric.clone()
+            };
+            Ok(test.run(&cloth, watch)?.reading())
+        }),
+        Test::StickSlip {
+            of,
+            along,
+            friction,
+        } => show(of, Some(along), |fabric, watch| {
+            let yarn = along.direction.yarn();
+            let friction = friction.unwrap_or(fabric.friction.body);
+            let test = StickSlip {
+                yarn,
+                friction,
+                cells: 40,
+            };
+            Ok(test.run(fabric, watch)?.reading(&test))
+        }),
+        Test::Verify { json, out, quick } => verify::verify(*json, out.as_deref(), *quick),
     }
+}
+
+/// Mean bending length of a fabric [cm].
+fn bending_length(fabric: &Fabric) -> f64 {
+    let bending = 0.5 * (fabric.warp.bending + fabric.weft.bending);
+    (bending / fabric.weight).cbrt()
+}
+
+/// Cells of a wished pitch [cm] over a length [cm].
+fn cells_across(pitch: Option<f64>, length: f64, usual: u32) -> u32 {
+    pitch.map_or(usual, |pitch| {
+        (length / pitch).round().clamp(1.0, 1e6) as u32
+    })
 }
 
 fn cantilever(
