@@ -68,6 +68,15 @@ pub(crate) enum Test {
         #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1000))]
         seeds: u32,
     },
+    /// The drapemeter at a pitch, a half and a quarter of it: the order of the errors, and the pitch
+    /// that keeps each figure within 1 %.
+    Resolution {
+        #[command(flatten)]
+        of: Specimen,
+        /// Layings at each pitch.
+        #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=100))]
+        seeds: u32,
+    },
     /// A plane is raised until the cloth on it slides.
     Slope {
         #[command(flatten)]

@@ -14,7 +14,7 @@ use soen::{
     fabric::Fabric,
     lab::{
         BiasBend, Buckling, Cantilever, Capstan, Drapemeter, HeartLoop, HungStrip, LabError, Pull,
-        Reading, ShearFrame, Slope, StickSlip, Watch,
+        Reading, Resolution, ShearFrame, Slope, StickSlip, Watch,
     },
     output::{self, ClothMesh, View},
     scene,
@@ -102,6 +102,11 @@ pub(crate) fn lab(wish: &LabWish) -> Result<ExitCode, Failure> {
                 ..usual
             };
             Ok(meter.run(fabric, watch)?.reading())
+        }),
+        Test::Resolution { of, seeds } => show(of, None, |fabric, watch| {
+            let pitch = of.pitch.unwrap_or(1.0);
+            let seeds = *seeds;
+            Ok(Resolution { pitch, seeds }.run(fabric, watch)?.reading())
         }),
         Test::Slope { of, friction } => show(of, None, |fabric, watch| {
             let friction = friction.unwrap_or(fabric.friction.body);
