@@ -147,6 +147,15 @@ impl Drapemeter {
     }
 }
 
+impl Laying {
+    /// The greatest strain along either yarn [%].
+    #[must_use]
+    pub fn greatest_strain(&self) -> f64 {
+        let shape = &self.rest.settled.shape;
+        100.0 * shape.strain_warp_max.max(shape.strain_weft_max)
+    }
+}
+
 impl Drapes {
     /// Mean and standard deviation of a number over the layings.
     #[must_use]
@@ -181,6 +190,7 @@ impl Drapes {
         let [folds, folds_spread] = self.spread(|laying| laying.folds.count as f64);
         let [depth, _] = self.spread(|laying| laying.folds.depth);
         let [hem, _] = self.spread(|laying| laying.hem);
+        let [strain, _] = self.spread(Laying::greatest_strain);
         let degrees = |(k, radius): (usize, &f64)| [k as f64 * 0.1, *radius];
         let outline = |laying: &Laying| {
             let radii = laying.shadow.radii.iter().enumerate().step_by(10);
@@ -195,6 +205,7 @@ impl Drapes {
                 ("folds_spread", folds_spread),
                 ("fold_depth_cm", depth),
                 ("hem_below_disc_cm", hem),
+                ("greatest_strain_percent", strain),
                 ("layings", self.layings.len() as f64),
             ]),
             trace: Some(Trace {

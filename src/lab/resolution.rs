@@ -94,10 +94,7 @@ impl Resolution {
             pitches,
             coefficient: order(|laying| laying.coefficient),
             hem: order(|laying| laying.hem),
-            strain: order(|laying| {
-                let shape = &laying.rest.settled.shape;
-                100.0 * shape.strain_warp_max.max(shape.strain_weft_max)
-            }),
+            strain: order(super::Laying::greatest_strain),
             drapes,
         })
     }

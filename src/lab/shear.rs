@@ -68,6 +68,8 @@ pub struct Sheared {
 /// All positions.
 #[derive(Clone, Debug)]
 pub struct Frame {
+    /// The load [gf].
+    pub load: f64,
     /// From the least angle to the greatest.
     pub positions: Vec<Sheared>,
 }
@@ -108,6 +110,7 @@ impl ShearFrame {
         let angle = |step: u32| (self.most * f64::from(step) / f64::from(steps)).to_radians();
         let positions = (1..=steps).map(|step| self.at(&cloth, angle(step), watch));
         Ok(Frame {
+            load: self.load,
             positions: positions.collect::<Result<_, _>>()?,
         })
     }
@@ -233,22 +236,39 @@ impl Frame {
         self.slope(|at| at.force)
     }
 
-    fn slope(&self, of: impl Fn(&Sheared) -> f64) -> f64 {
-        let read = |at: &&Sheared| {
-            let degrees = at.angle.to_degrees();
-            (READ[0]..READ[1]).contains(&degrees)
-        };
-        let mut chosen: Vec<&Sheared> = self.positions.iter().filter(read).collect();
-        if chosen.is_empty() {
-            chosen = self.positions.iter().take(1).collect();
+    /// How far the sheet stands out of its plane where it is read [cm]: one that wrinkles shows less
+    /// than its modulus.
+    #[must_use]
+    pub fn out_of_plane(&self) -> f64 {
+        let heights = self
+            .read()
+            .into_iter()
+            .flat_map(|at| &at.rest.settled.positions);
+        heights.map(|at| at.z.abs()).fold(0.0, f64::max)
+    }
+
+    /// The positions that M_SH is read from.
+    fn read(&self) -> Vec<&Sheared> {
+        let within = |at: &&Sheared| (READ[0]..READ[1]).contains(&at.angle.to_degrees());
+        let read: Vec<&Sheared> = self.positions.iter().filter(within).collect();
+        if read.is_empty() {
+            self.positions.iter().take(1).collect()
+        } else {
+            read
         }
-        let sums = chosen.into_iter().fold([0.0, 0.0], |[sum, squares], at| {
-            let slope = libm::tan(at.angle);
-            [
-                sum + slope * at.stretch * (of(at) - at.of_load),
-                squares + slope * slope,
-            ]
-        });
+    }
+
+    fn slope(&self, of: impl Fn(&Sheared) -> f64) -> f64 {
+        let sums = self
+            .read()
+            .into_iter()
+            .fold([0.0, 0.0], |[sum, squares], at| {
+                let slope = libm::tan(at.angle);
+                [
+                    sum + slope * at.stretch * (of(at) - at.of_load),
+                    squares + slope * slope,
+                ]
+            });
         sums[0] / sums[1]
     }
 
@@ -276,6 +296,8 @@ impl Frame {
             instrument: "shear",
             figures: figures([
                 ("shear_gf_per_cm", shear),
+                ("load_gf", self.load),
+                ("out_of_plane_cm", self.out_of_plane()),
                 ("whole_clamp_shear_gf_per_cm", whole),
                 (
                     "angle_deg",

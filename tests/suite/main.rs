@@ -7,6 +7,7 @@
 //! - `scenes`: every scene is certified and looks as it did, in figures and in a picture.
 //! - `figures`: what the paper says of its figures is so, and the README gives the numbers.
 //! - `maps`: heat maps of cloths whose values are known beforehand.
+//! - `holds`: hands bear the weight of what they hold, and a rolled-up cloth is as long as it was.
 //! - `fuzz`: no bytes make the readers panic.
 //! - `starts`: no scene that they allow makes the solver panic.
 //! - `verification`, `friction`: drapes that mathematics knows, and where friction gives way.
@@ -23,6 +24,7 @@ mod figures;
 mod fit;
 mod friction;
 mod fuzz;
+mod holds;
 mod honesty;
 mod laws;
 mod laws_contact;

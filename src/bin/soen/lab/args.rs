@@ -37,13 +37,17 @@ pub(crate) enum Test {
         overhang: Option<f64>,
     },
     /// A sheet between two clamps that move along each other under a load (KES-F1-S).
+    ///
+    /// A corner of the lattice has the mean of both yarns' moduli, so either direction shows that.
+    /// A sheet that stands out of its plane has wrinkled, and shows less.
     Shear {
         #[command(flatten)]
         of: Specimen,
         #[command(flatten)]
         along: Along,
-        /// Load that keeps the sheet taut [gf]; where not given, 200 or as much as shears it. Where
-        /// it is 0, hinged sides keep the clamps at the yarns' length.
+        /// Load that keeps the sheet taut [gf]; where not given, 200 or, if that is more, four times
+        /// what shears it. Where it is 0, hinged sides keep the clamps at the yarns' length, and
+        /// limp cloth wrinkles.
         #[arg(long, value_name = "GF")]
         load: Option<f64>,
         /// Greatest angle [°].
