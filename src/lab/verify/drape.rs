@@ -12,8 +12,12 @@ use crate::{
 /// Layings at half the pitch.
 const FEW: u32 = 3;
 
-pub(super) fn compare(fabrics: &[Named], watch: Watch<'_>) -> Result<Vec<Comparison>, LabError> {
-    let mut rows = Vec::new();
+/// Hands its rows to `add` fabric by fabric, for each takes minutes.
+pub(super) fn compare(
+    fabrics: &[Named],
+    watch: Watch<'_>,
+    add: &mut dyn FnMut(Vec<Comparison>),
+) -> Result<(), LabError> {
     let mut all = Vec::new();
     for fabric in fabrics {
         let meter = Drapemeter::of(&fabric.1);
@@ -23,12 +27,13 @@ pub(super) fn compare(fabrics: &[Named], watch: Watch<'_>) -> Result<Vec<Compari
             seeds: FEW,
             ..meter
         };
-        rows.extend(of_fabric(fabric, &drapes));
+        let mut rows = of_fabric(fabric, &drapes);
         rows.push(halved(fabric, &drapes, &fine.run(&fabric.1, watch)?));
+        add(rows);
         all.push((fabric.1.clone(), drapes));
     }
-    rows.extend(in_order(fabrics, &all));
-    Ok(rows)
+    add(in_order(fabrics, &all));
+    Ok(())
 }
 
 fn coefficient(drapes: &Drapes) -> f64 {

@@ -109,7 +109,7 @@ pub fn verify(
         add(&mut all, twist::compare(fabric, &mut watch)?, tell);
     }
     if !quick {
-        add(&mut all, drape::compare(fabrics, &mut watch)?, tell);
+        drape::compare(fabrics, &mut watch, &mut |rows| add(&mut all, rows, tell))?;
     }
     if stopped {
         Err(LabError::Stopped)
