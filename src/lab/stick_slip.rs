@@ -36,7 +36,7 @@ pub struct Slipped {
 }
 
 /// Length of the strip [cm].
-const LENGTH: f64 = 10.0;
+const LENGTH: f64 = 20.0;
 /// W·L³/M_BN of a strip with next to no weight.
 const WEIGHTLESS: f64 = 0.02;
 /// A tip this part of the length away has slipped.
@@ -45,7 +45,7 @@ const AWAY: f64 = 0.03;
 const MOST: f64 = 0.36;
 const WITHIN: f64 = 5e-4;
 /// Rounds that a strip has to come to rest.
-const ROUNDS: usize = 300;
+const ROUNDS: usize = 1000;
 const THICKNESS: f64 = 0.01;
 
 impl StickSlip {

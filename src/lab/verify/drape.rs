@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// Layings at half the pitch.
-const FEW: u32 = 3;
+const FEW: u32 = 2;
 
 /// Hands its rows to `add` fabric by fabric, for each takes minutes.
 pub(super) fn compare(
