@@ -154,6 +154,7 @@ mod tests {
     fn settled() -> Settled {
         let sample::Placed { lattice, positions } = sample::wave(3, 2, 1.0);
         Settled {
+            holding: Vec::new(),
             contact: vec![0.0; positions.len()],
             lattice,
             positions,
