@@ -16,6 +16,9 @@ use crate::{fabric::Fabric, lattice::Edge, math::Vec3};
 /// B45 over the mean of warp and weft, of measured cloth [-].
 const MEASURED: f64 = 0.78;
 
+/// Most cells across a strip.
+const WIDE: f64 = 500.0;
+
 /// Three strips.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BiasBend {
@@ -98,6 +101,7 @@ impl BiasBend {
             ..fabric.clone()
         };
         let pitch = length / f64::from(self.cells);
+        within("width [cm]", self.width, pitch, WIDE * pitch)?;
         let mut problem = strip(&cloth, cut, [length, self.width], pitch)?;
         problem.holds = vec![hold(Edge::XMin, true, Vec3::zeros())];
         let rest = Rest::of(problem, watch)?;

@@ -19,6 +19,8 @@ use crate::{
 pub const CRITICAL: f64 = 12.853_763_321_4;
 /// A strip whose tip is this part of its length off its plane has buckled.
 const BUCKLED: f64 = 0.005;
+/// Most cells along a strip.
+const LONG: f64 = 1000.0;
 /// The critical length is found to within this part.
 const WITHIN: f64 = 0.005;
 
@@ -65,7 +67,7 @@ impl Buckling {
     /// [`LabError`] where the fabric does not bend or twist, or a strip cannot be cut.
     pub fn run(&self, fabric: &Fabric, watch: Watch<'_>) -> Result<Stood, LabError> {
         within("slimness [-]", self.slimness, 0.005, 1.0)?;
-        within("cells", f64::from(self.cells), 1.0, 50.0)?;
+        within("cells", f64::from(self.cells), 1.0, LONG * self.slimness)?;
         let bending = within(
             "bending [gf·cm]",
             fabric.along(self.yarn).bending,

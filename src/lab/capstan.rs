@@ -74,7 +74,7 @@ impl Capstan {
     pub fn run(&self, fabric: &Fabric, watch: Watch<'_>) -> Result<Held, LabError> {
         within("friction [-]", self.friction, 0.01, 1.0)?;
         within("radius [cm]", self.radius, 0.5, 100.0)?;
-        within("short end [cm]", self.short, 0.5, 200.0)?;
+        within("short end [cm]", self.short, 0.5, 20.0 * self.radius)?;
         within(
             "pitch [cm]",
             self.pitch,
@@ -165,6 +165,25 @@ impl Held {
             trace: None,
             certified: self.rest.settled.converged,
             rest: Some(self.rest),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// d_capstan of `reference.json`.
+    #[test]
+    fn the_longest_end_counts_the_belts_weight_on_the_cylinder() {
+        let capstan = Capstan {
+            friction: 0.1,
+            radius: 0.5,
+            ..Capstan::default()
+        };
+        for (short, long) in [(5.0, 7.080_103_978_93), (10.0, 13.925_642_832_1)] {
+            let longest = capstan.longest(short);
+            assert!((longest - long).abs() < 1e-9, "{longest}");
         }
     }
 }

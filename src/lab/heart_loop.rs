@@ -23,6 +23,10 @@ const DOUBLED: f64 = 32.85;
 /// The strip turns by so much from clamp to clamp [rad].
 const TURN: f64 = 3.0 * PI;
 
+/// Bending lengths in a strip that hangs as a heart: a shorter one stands up from the clamp instead
+/// (5 do, of cloths A to D; 6 hang, of all five), and in a longer one the loop's height hardly tells.
+const HEARTS: [f64; 2] = [6.0, 25.0];
+
 /// A strip, two cells wide, clamped as a heart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeartLoop {
@@ -48,13 +52,32 @@ pub struct Heart {
 }
 
 impl HeartLoop {
+    /// A strip of ten bending lengths in 80 cells.
+    #[must_use]
+    pub fn of(fabric: &Fabric, yarn: Yarn) -> Self {
+        let length = 10.0 * libm::cbrt(fabric.along(yarn).bending / fabric.weight);
+        let pitch = length / 80.0;
+        Self {
+            yarn,
+            length,
+            pitch,
+        }
+    }
+
     /// Hangs the loop.
     ///
     /// # Errors
-    /// [`LabError`] where the strip cannot be cut.
+    /// [`LabError`] where the strip cannot be cut, or is not as long as 6 to 25 bending lengths.
     pub fn run(&self, fabric: &Fabric, watch: Watch<'_>) -> Result<Heart, LabError> {
-        let length = within("length [cm]", self.length, 0.1, 1000.0)?;
-        let pitch = within("pitch [cm]", self.pitch, length / 1000.0, length / 10.0)?;
+        let bending = within(
+            "bending [gf·cm]",
+            fabric.along(self.yarn).bending,
+            1e-9,
+            1e4,
+        )?;
+        let [least, most] = HEARTS.map(|times| times * libm::cbrt(bending / fabric.weight));
+        let length = within("length [cm]", self.length, least, most)?;
+        let pitch = within("pitch [cm]", self.pitch, length / 1000.0, length / 20.0)?;
         let mut problem = strip(fabric, self.yarn.into(), [length, 2.0 * pitch], pitch)?;
         // Rolled up, the end of the strip stands before its start by a diameter.
         let curl = TURN / length;
@@ -106,5 +129,19 @@ impl Heart {
             certified: self.rest.settled.converged,
             rest: Some(self.rest),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where the weight doubles the height, c = ℓ₀·(cos 32.85°/tan 32.85°)^(1/3).
+    #[test]
+    fn peirces_relation_is_his() {
+        let doubled = bending_length(10.0, 2.674);
+        assert!((doubled / 1.337 - 1.0917).abs() < 1e-4, "{doubled}");
+        assert_eq!(bending_length(10.0, 1.3), f64::INFINITY);
+        assert_eq!(bending_length(10.0, 5.1), 0.0);
     }
 }

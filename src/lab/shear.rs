@@ -100,11 +100,12 @@ impl ShearFrame {
     /// # Errors
     /// [`LabError`] where the sheet cannot be cut, or does not take the load.
     pub fn run(&self, fabric: &Fabric, watch: Watch<'_>) -> Result<Frame, LabError> {
+        within("angle [deg]", self.most, 0.1, 30.0)?;
         within("width [cm]", self.width, 0.1, 200.0)?;
         within("gap [cm]", self.gap, 0.1, 200.0)?;
-        within("pitch [cm]", self.pitch, self.gap / 100.0, self.gap)?;
+        let least = self.gap.max(self.width) / 400.0;
+        within("pitch [cm]", self.pitch, least, self.gap)?;
         within("load [gf]", self.load, 0.0, 1e5)?;
-        within("angle [deg]", self.most, 0.1, 30.0)?;
         let cloth = tared(fabric);
         let steps = self.steps.clamp(1, 100);
         let angle = |step: u32| (self.most * f64::from(step) / f64::from(steps)).to_radians();
@@ -151,9 +152,9 @@ impl ShearFrame {
             let rest = self.sheared(cloth, angle, apart, watch)?;
             let off = self.middle(&rest).y - asked;
             if off < 0.0 {
-                near = apart
+                near = apart;
             } else {
-                far = apart
+                far = apart;
             }
             if off.abs() < LOAD_MET * asked || far - near < CLOSE * self.gap {
                 return Ok((apart, rest));

@@ -60,9 +60,9 @@ pub(crate) enum Test {
         of: Specimen,
         #[command(flatten)]
         along: Along,
-        /// Length of the strip [cm].
-        #[arg(long, value_name = "CM", default_value_t = 20.0)]
-        length: f64,
+        /// Length of the strip [cm]; ten bending lengths where not given.
+        #[arg(long, value_name = "CM")]
+        length: Option<f64>,
     },
     /// A disc of 30 cm rests on one of 18 cm (Cusick): drape coefficient and folds, over seeds.
     Drapemeter {

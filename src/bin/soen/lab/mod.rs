@@ -83,7 +83,8 @@ pub(crate) fn lab(wish: &LabWish) -> Result<ExitCode, Failure> {
             Ok(frame.run(fabric, watch)?.reading())
         }),
         Test::HeartLoop { of, along, length } => show(of, Some(along), |fabric, watch| {
-            let (yarn, length) = (along.direction.yarn(), *length);
+            let yarn = along.direction.yarn();
+            let length = length.unwrap_or(HeartLoop::of(fabric, yarn).length);
             let pitch = of.pitch.unwrap_or(length / 80.0);
             Ok(HeartLoop {
                 yarn,
@@ -135,7 +136,9 @@ pub(crate) fn lab(wish: &LabWish) -> Result<ExitCode, Failure> {
         Test::BiasBend { of, twist } => show(of, None, |fabric, watch| {
             let mut test = BiasBend::of(fabric);
             test.twist = twist.unwrap_or(test.twist);
-            test.cells = cells_across(of.pitch, 2.0 * bending_length(fabric), test.cells);
+            if let Some(pitch) = of.pitch {
+                test.cells = cells_of(pitch, 2.0 * bending_length(fabric), [4.0, 200.0])?;
+            }
             Ok(test.run(fabric, watch)?.reading(&test))
         }),
         Test::Buckling {
@@ -181,11 +184,18 @@ fn bending_length(fabric: &Fabric) -> f64 {
     (bending / fabric.weight).cbrt()
 }
 
-/// Cells of a wished pitch [cm] over a length [cm].
-fn cells_across(pitch: Option<f64>, length: f64, usual: u32) -> u32 {
-    pitch.map_or(usual, |pitch| {
-        (length / pitch).round().clamp(1.0, 1e6) as u32
-    })
+/// Cells of a wished pitch [cm] over a length [cm], where so few and so many are allowed.
+fn cells_of(pitch: f64, length: f64, [few, many]: [f64; 2]) -> Result<u32, LabError> {
+    let [least, most] = [length / many, length / few];
+    if (least..=most).contains(&pitch) {
+        Ok((length / pitch).round() as u32)
+    } else {
+        Err(LabError::NotAllowed {
+            what: "pitch [cm]",
+            value: pitch,
+            allowed: format!("{least:.4} to {most:.4}"),
+        })
+    }
 }
 
 fn cantilever(
@@ -197,6 +207,8 @@ fn cantilever(
 ) -> Result<Reading, LabError> {
     /// Cells along the strip whose slope is looked for.
     const CELLS: u32 = 20;
+    /// And at most.
+    const MOST: f64 = 200.0;
     let yarn = along.direction.yarn();
     match overhang {
         Some(overhang) => {
@@ -213,8 +225,8 @@ fn cantilever(
             match pitch {
                 None => Ok(found.reading(fabric, yarn)),
                 Some(pitch) => {
-                    let cells = (found.length / pitch).round().clamp(2.0, 1000.0);
-                    let found = Cantilever::overhang(fabric, yarn, cells as u32, watch)?;
+                    let cells = cells_of(pitch, found.length, [2.0, MOST])?;
+                    let found = Cantilever::overhang(fabric, yarn, cells, watch)?;
                     Ok(found.reading(fabric, yarn))
                 }
             }
