@@ -11,6 +11,7 @@
 //! - `fuzz`: no bytes make the readers panic.
 //! - `starts`: no scene that they allow makes the solver panic.
 //! - `verification`, `friction`: drapes that mathematics knows, and where friction gives way.
+//! - `lab`: each instrument reads what closed forms, rod chains and the elastica say, or refuses.
 //! - `honesty`: what the certificate says is left to go is what is left.
 //! - `determinism`: the same bits on any number of threads.
 //! - `laws`, `laws_contact`, `laws_paper`, `laws_twist`: every law is the slope of its own energy,
@@ -26,6 +27,7 @@ mod friction;
 mod fuzz;
 mod holds;
 mod honesty;
+mod lab;
 mod laws;
 mod laws_contact;
 mod laws_paper;
