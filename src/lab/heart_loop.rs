@@ -99,14 +99,16 @@ impl HeartLoop {
     }
 }
 
-/// Peirce's relation [cm]; infinite for a loop no longer than without weight.
+/// Peirce's relation [cm]; infinite for a loop no longer than without weight, 0 for one so long that
+/// it does not bend.
 fn bending_length(length: f64, height: f64) -> f64 {
     let weightless = WEIGHTLESS * length;
     let angle = (DOUBLED * (height - weightless) / weightless).to_radians();
     if angle <= 0.0 {
         return f64::INFINITY;
     }
-    weightless * libm::cbrt((libm::cos(angle) / libm::tan(angle)).max(0.0))
+    // Beyond a right angle cosine and tangent are both negative: the loop is longer than any.
+    weightless * libm::cbrt(libm::cos(angle).max(0.0) / libm::tan(angle).abs())
 }
 
 impl Heart {
