@@ -60,6 +60,9 @@ pub struct Pull {
     pub stiffness: Mat3,
 }
 
+/// Cloth without weight is taken for one whose bending length is ten pitches.
+const WEIGHTLESS: f64 = 1e-3;
+
 /// A lattice of one fabric under the laws that act.
 #[derive(Clone, Debug)]
 pub struct Sheet<'a> {
@@ -69,6 +72,8 @@ pub struct Sheet<'a> {
     twists: Vec<SheetTwist>,
     clamps: Vec<SheetClamp>,
     weights: Vec<f64>,
+    /// What forces on each node are measured by [gf].
+    measures: Vec<f64>,
     roles: Roles,
 }
 
@@ -93,8 +98,15 @@ impl<'a> Sheet<'a> {
         let clamps = clamps.iter().filter(|_| laws.bending);
         let clamps: Vec<SheetClamp> = clamps.map(|clamp| SheetClamp::new(clamp, fabric)).collect();
         let areas = lattice.area.iter();
+        let measure = if fabric.weight > 0.0 {
+            fabric.weight
+        } else {
+            let bending = fabric.warp.bending.max(fabric.weft.bending);
+            WEIGHTLESS * bending / (lattice.pitch * lattice.pitch * lattice.pitch)
+        };
         Self {
             fabric,
+            measures: areas.clone().map(|area| area * measure).collect(),
             weights: areas.map(|area| area * fabric.weight).collect(),
             roles: Roles::new(lattice.area.len(), &rods, &angles, &twists, &clamps),
             rods,
@@ -108,6 +120,12 @@ impl<'a> Sheet<'a> {
     #[must_use]
     pub fn weights(&self) -> &[f64] {
         &self.weights
+    }
+
+    /// What forces on each node are measured by [gf]: its weight or, of cloth without, a part of the
+    /// couple that bends it over a pitch.
+    pub(crate) fn measures(&self) -> &[f64] {
+        &self.measures
     }
 
     /// How many nodes there are.

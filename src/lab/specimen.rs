@@ -158,12 +158,10 @@ pub(super) fn hold(edge: Edge, clamp: bool, carry: Vec3) -> Hold {
     Hold { grip, clamp, carry }
 }
 
-/// The cloth without weight, but for a thousandth that tells the solver which way slack cloth lies:
-/// a machine shows forces with the specimen's own weight taken off.
+/// The cloth without weight: a machine shows forces with the specimen's own weight taken off.
 pub(super) fn tared(fabric: &Fabric) -> Fabric {
-    let weight = 1e-3 * fabric.weight;
     Fabric {
-        weight,
+        weight: 0.0,
         ..fabric.clone()
     }
 }

@@ -3,7 +3,7 @@
 use super::{
     Cut, LabError, Reading, Rest, Trace, Watch,
     reading::{figures, within},
-    specimen::{hold, strip},
+    specimen::{hold, strip, tared},
 };
 use crate::{
     fabric::{Fabric, Yarn},
@@ -135,12 +135,7 @@ impl Pull {
         let pitch = within("pitch [cm]", self.pitch, length.max(width) / 500.0, length)?;
         let most = within("strain [-]", self.most, 1e-6, 2.0)?;
         let steps = self.steps.clamp(1, 1000);
-        // Not a thousandth of its weight is left: on a taut strip it sags so little that b along the
-        // weft and d along both never came to rest at a tenth.
-        let cloth = Fabric {
-            weight: 0.0,
-            ..fabric.clone()
-        };
+        let cloth = tared(fabric);
         let mut pull = |step: u32| {
             let strain = most * f64::from(step) / f64::from(steps);
             let mut problem = strip(&cloth, self.cut, self.size, pitch)?;

@@ -124,7 +124,7 @@ impl Joint {
     /// The same with the nodes' damping.
     fn damped(&self, level: &Level<'_>, positive: bool) -> Stiffness {
         let mut matrix = self.assembled(level, positive);
-        let weights = level.sheet.weights().iter().zip(&self.damping);
+        let weights = level.sheet.measures().iter().zip(&self.damping);
         for (node, (weight, damping)) in (0..).zip(weights) {
             matrix.add(node, node, &(Mat3::identity() * (weight * damping)));
         }

@@ -76,7 +76,7 @@ impl<'a> Level<'a> {
     /// [gf].
     pub(super) fn any_forces(&self) -> Vec<Vec3> {
         let any = |node: usize, axis: usize| number((3 * node + axis) as u64);
-        let weights = self.sheet.weights();
+        let weights = self.sheet.measures();
         (0..self.at.len())
             .map(|node| {
                 if self.held[node] {

@@ -38,7 +38,7 @@ impl Level<'_> {
         let (push, block) = self.touches.pull(node, &self.at);
         pull.force += push;
         pull.stiffness += block;
-        let floor = self.sheet.weights()[node] / self.lattice.pitch;
+        let floor = self.sheet.measures()[node] / self.lattice.pitch;
         for axis in 0..3 {
             pull.stiffness[(axis, axis)] += floor;
         }
