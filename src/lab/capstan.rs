@@ -66,6 +66,19 @@ const ROUNDS: usize = 800;
 const THICKNESS: f64 = 0.01;
 
 impl Capstan {
+    /// The usual cylinder, at a pitch that a fabric's bends need: a quarter of its bending length
+    /// along the belt, but 0.25 to 0.5 cm.
+    #[must_use]
+    pub fn of(fabric: &Fabric, yarn: Yarn) -> Self {
+        let bending_length = libm::cbrt(fabric.along(yarn).bending / fabric.weight);
+        let pitch = (0.25 * bending_length).clamp(0.25, 0.5);
+        Self {
+            yarn,
+            pitch,
+            ..Self::default()
+        }
+    }
+
     /// Lays ever lighter belts until one lies still. What its landing moved counts: it is judged as
     /// it lies.
     ///

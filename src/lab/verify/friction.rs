@@ -1,7 +1,10 @@
 //! Where friction gives way.
 
 use super::{Allowed, Comparison, Named, name};
-use crate::lab::{Capstan, LabError, Slope, Watch};
+use crate::{
+    fabric::Yarn,
+    lab::{Capstan, LabError, Slope, Watch},
+};
 
 /// Friction coefficients that are tried [-].
 const FRICTION: f64 = 0.3;
@@ -24,7 +27,7 @@ pub(super) fn compare(fabric: &Named, watch: Watch<'_>) -> Result<Vec<Comparison
     if fabric.1.warp.bending < 0.2 {
         let capstan = Capstan {
             friction: FRICTION,
-            ..Capstan::default()
+            ..Capstan::of(&fabric.1, Yarn::Warp)
         };
         let held = capstan.run(&fabric.1, watch)?;
         rows.push(Comparison {

@@ -124,9 +124,8 @@ pub(crate) fn lab(wish: &LabWish) -> Result<ExitCode, Failure> {
             along,
             friction,
         } => show(of, Some(along), |fabric, watch| {
-            let usual = Capstan::default();
+            let usual = Capstan::of(fabric, along.direction.yarn());
             let capstan = Capstan {
-                yarn: along.direction.yarn(),
                 friction: friction.unwrap_or(fabric.friction.body),
                 pitch: of.pitch.unwrap_or(usual.pitch),
                 ..usual
