@@ -62,8 +62,10 @@ impl StickSlip {
         while high - low > WITHIN {
             let middle = 0.5 * (low + high);
             let rest = self.press(fabric, middle, watch)?;
-            if rest.settled.converged && rest.middle(Edge::XMax).xy().norm() < AWAY * LENGTH {
-                (low, found) = (middle, Some(rest));
+            let sticks = rest.middle(Edge::XMax).xy().norm() < AWAY * LENGTH;
+            if sticks {
+                low = middle;
+                found = Some(rest);
             } else {
                 high = middle;
             }
