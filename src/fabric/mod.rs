@@ -90,4 +90,10 @@ impl Fabric {
             Yarn::Weft => &self.weft,
         }
     }
+
+    /// Peirce's bending length along a yarn, c = (M_BN/W)^(1/3) [cm].
+    #[must_use]
+    pub fn bending_length(&self, yarn: Yarn) -> f64 {
+        libm::cbrt(self.along(yarn).bending / self.weight)
+    }
 }

@@ -7,7 +7,7 @@
 use super::{
     LabError, Reading, Rest, Watch,
     reading::{figures, within},
-    specimen::{hold, rigid, strip},
+    specimen::{Limit, TOLERANCE, hold, rigid, strip},
 };
 use crate::{
     fabric::{Fabric, Yarn},
@@ -76,21 +76,16 @@ impl Buckling {
         )?;
         let twist = within("twist modulus [gf·cm]", fabric.twist, 1e-9, 1e4)?;
         let critical = libm::cbrt(CRITICAL * (bending * twist).sqrt() / fabric.weight);
-        let (mut low, mut high) = (0.0, 2.0 * critical);
-        let mut found = None;
-        while high - low > WITHIN * critical {
-            let middle = 0.5 * (low + high);
-            let rest = self.stand(fabric, middle, watch)?;
-            if rest.off_plane() > BUCKLED * middle {
-                (high, found) = (middle, Some(rest));
-            } else {
-                low = middle;
-            }
-        }
-        let rest = found.ok_or(LabError::NotFound {
+        let lengths = [0.0, 2.0 * critical];
+        let limit = Limit::find(lengths, WITHIN * critical, |length| {
+            let rest = self.stand(fabric, length, watch)?;
+            Ok((rest.off_plane() <= BUCKLED * length, rest))
+        })?;
+        let [low, high] = limit.between;
+        let rest = limit.gave.ok_or(LabError::NotFound {
             what: "a length [cm] at which the strip buckles",
-            low: 0.0,
-            high: 2.0 * critical,
+            low: lengths[0],
+            high: lengths[1],
         })?;
         let length = 0.5 * (low + high);
         Ok(Stood {
@@ -112,7 +107,7 @@ impl Buckling {
         let mut problem = strip(cloth, self.yarn.into(), [length, height], pitch)?;
         problem.placement.y_axis = Vec3::z();
         problem.holds = vec![hold(Edge::XMin, true, Vec3::zeros())];
-        Rest::of(problem, watch)
+        Rest::judged(problem, TOLERANCE, usize::MAX, watch)
     }
 }
 

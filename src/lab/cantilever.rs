@@ -78,8 +78,8 @@ impl Cantilever {
         watch: Watch<'_>,
     ) -> Result<Overhang, LabError> {
         let cells = within("cells", f64::from(cells), 2.0, 1000.0)?;
-        let bending = within("bending [gf·cm]", fabric.along(yarn).bending, 1e-9, 1e4)?;
-        let usual = 2.0 * libm::cbrt(bending / fabric.weight);
+        within("bending [gf·cm]", fabric.along(yarn).bending, 1e-9, 1e4)?;
+        let usual = 2.0 * fabric.bending_length(yarn);
         let mut bend = |overhang: f64| {
             let pitch = overhang / cells;
             let bent = Self {
@@ -147,7 +147,8 @@ impl Overhang {
     #[must_use]
     pub fn reading(self, fabric: &Fabric, yarn: Yarn) -> Reading {
         let bending = fabric.along(yarn).bending;
-        let mut reading = Reading {
+        let rest = self.bent.rest;
+        Reading {
             instrument: "cantilever",
             figures: figures([
                 ("overhang_cm", self.length),
@@ -159,10 +160,8 @@ impl Overhang {
                 ),
             ]),
             trace: None,
-            rest: None,
-            certified: self.bent.rest.settled.converged,
-        };
-        reading.rest = Some(self.bent.rest);
-        reading
+            certified: rest.settled.converged,
+            rest: Some(rest),
+        }
     }
 }

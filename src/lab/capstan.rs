@@ -7,7 +7,7 @@
 use super::{
     LabError, Reading, Rest, Watch,
     reading::{figures, within},
-    specimen::strip,
+    specimen::{TOUCHING, strip},
 };
 use crate::{
     body::{Bodies, Part, Shape},
@@ -70,8 +70,7 @@ impl Capstan {
     /// along the belt, but 0.25 to 0.5 cm.
     #[must_use]
     pub fn of(fabric: &Fabric, yarn: Yarn) -> Self {
-        let bending_length = libm::cbrt(fabric.along(yarn).bending / fabric.weight);
-        let pitch = (0.25 * bending_length).clamp(0.25, 0.5);
+        let pitch = (0.25 * fabric.bending_length(yarn)).clamp(0.25, 0.5);
         Self {
             yarn,
             pitch,
@@ -125,11 +124,7 @@ impl Capstan {
         problem.thickness = THICKNESS;
         problem.friction = self.friction;
         problem.bodies = Bodies::new(vec![self.cylinder()?]);
-        let mut left = ROUNDS;
-        let rest = Rest::within(problem, 1e-3, &mut |progress| {
-            left = left.saturating_sub(1);
-            left > 0 && watch(progress)
-        })?;
+        let rest = Rest::judged(problem, TOUCHING, ROUNDS, watch)?;
         let slipped = slipped(&rest);
         let (long, short) = (long + slipped, self.short - slipped);
         let part = long / self.longest(short);

@@ -7,11 +7,11 @@
 use super::{
     Folds, LabError, Reading, Rest, Shadow, Trace, Watch,
     reading::{figures, within},
-    specimen::cloth,
+    specimen::{TOUCHING, cloth},
 };
 use crate::{
     body::{Bodies, Part, Shape},
-    fabric::Fabric,
+    fabric::{Fabric, Yarn},
     lattice::Outline,
     math::{Pose, Vec3},
     solver::Problem,
@@ -23,8 +23,6 @@ use std::{f64::consts::PI, sync::Mutex};
 const LEAST_FOLD: f64 = 0.05;
 /// Height of the supporting disc [cm].
 const SUPPORT: f64 = 1.0;
-/// A drape rests when its residual is below this [-].
-const TOLERANCE: f64 = 1e-3;
 
 /// A disc of cloth, and the disc that it rests on by contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,9 +76,8 @@ impl Drapemeter {
     /// 0.5 cm.
     #[must_use]
     pub fn of(fabric: &Fabric) -> Self {
-        let limper = fabric.warp.bending.min(fabric.weft.bending);
-        let half = 0.5 * libm::cbrt(limper / fabric.weight);
-        let pitch = half.clamp(0.25, 0.5);
+        let [warp, weft] = [Yarn::Warp, Yarn::Weft].map(|yarn| fabric.bending_length(yarn));
+        let pitch = (0.5 * warp.min(weft)).clamp(0.25, 0.5);
         Self {
             pitch,
             ..Self::default()
@@ -108,7 +105,7 @@ impl Drapemeter {
     /// # Errors
     /// [`LabError`], as [`run`](Self::run).
     pub fn lay(&self, fabric: &Fabric, seed: u64, watch: Watch<'_>) -> Result<Laying, LabError> {
-        let rest = Rest::within(self.problem(fabric, seed)?, TOLERANCE, watch)?;
+        let rest = Rest::within(self.problem(fabric, seed)?, TOUCHING, watch)?;
         let shadow = Shadow::of(&rest.settled.lattice, &rest.settled.positions);
         let disc = PI * self.support * self.support;
         let whole = PI * self.radius * self.radius;

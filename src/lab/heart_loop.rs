@@ -55,7 +55,7 @@ impl HeartLoop {
     /// A strip of ten bending lengths in 80 cells.
     #[must_use]
     pub fn of(fabric: &Fabric, yarn: Yarn) -> Self {
-        let length = 10.0 * libm::cbrt(fabric.along(yarn).bending / fabric.weight);
+        let length = 10.0 * fabric.bending_length(yarn);
         let pitch = length / 80.0;
         Self {
             yarn,
@@ -69,13 +69,13 @@ impl HeartLoop {
     /// # Errors
     /// [`LabError`] where the strip cannot be cut, or is not as long as 6 to 25 bending lengths.
     pub fn run(&self, fabric: &Fabric, watch: Watch<'_>) -> Result<Heart, LabError> {
-        let bending = within(
+        within(
             "bending [gf·cm]",
             fabric.along(self.yarn).bending,
             1e-9,
             1e4,
         )?;
-        let [least, most] = HEARTS.map(|times| times * libm::cbrt(bending / fabric.weight));
+        let [least, most] = HEARTS.map(|times| times * fabric.bending_length(self.yarn));
         let length = within("length [cm]", self.length, least, most)?;
         let pitch = within("pitch [cm]", self.pitch, length / 1000.0, length / 20.0)?;
         let mut problem = strip(fabric, self.yarn.into(), [length, 2.0 * pitch], pitch)?;

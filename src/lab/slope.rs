@@ -3,7 +3,7 @@
 use super::{
     LabError, Reading, Rest, Watch,
     reading::{figures, within},
-    specimen::cloth,
+    specimen::{Limit, TOUCHING, cloth},
 };
 use crate::{
     body::{Bodies, Part, Shape},
@@ -35,6 +35,8 @@ pub struct Slid {
     pub rest: Rest,
 }
 
+/// Slopes to look between [°].
+const SLOPES: [f64; 2] = [0.0, 80.0];
 /// The steepest slope is found to within this [°].
 const WITHIN: f64 = 0.02;
 /// A cloth that lies still does so after fewer rounds.
@@ -51,27 +53,19 @@ impl Slope {
         within("friction [-]", self.friction, 0.01, 2.0)?;
         within("size [cm]", self.size, 1.0, 50.0)?;
         within("pitch [cm]", self.pitch, self.size / 50.0, 0.5 * self.size)?;
-        let (mut low, mut high) = (0.0, 80.0);
-        let mut found = None;
-        while high - low > WITHIN {
-            let middle = 0.5 * (low + high);
-            let rest = self.lie(fabric, middle, watch)?;
-            if rest.settled.converged {
-                found = Some(rest);
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        let rest = found.ok_or(LabError::NotFound {
+        let limit = Limit::find(SLOPES, WITHIN, |degrees| {
+            let rest = self.lie(fabric, degrees, watch)?;
+            Ok((rest.settled.converged, rest))
+        })?;
+        let [angle, high] = limit.between;
+        let rest = limit.held.ok_or(LabError::NotFound {
             what: "a slope [deg] that the cloth lies on",
-            low,
+            low: angle,
             high,
         })?;
-        let friction = libm::tan(low.to_radians());
         Ok(Slid {
-            angle: low,
-            friction,
+            angle,
+            friction: libm::tan(angle.to_radians()),
             rest,
         })
     }
@@ -91,11 +85,7 @@ impl Slope {
         problem.placement.x_axis = turn * Vec3::x();
         problem.bodies = Bodies::new(vec![Part::new("plane".into(), &plane, pose)?]);
         problem.friction = self.friction;
-        let mut left = ROUNDS;
-        Rest::within(problem, 1e-3, &mut |progress| {
-            left = left.saturating_sub(1);
-            left > 0 && watch(progress)
-        })
+        Rest::judged(problem, TOUCHING, ROUNDS, watch)
     }
 }
 

@@ -43,8 +43,9 @@ impl From<Yarn> for Cut {
     }
 }
 
-/// Instruments read shapes that are this near to rest [-].
-const TOLERANCE: f64 = 1e-6;
+/// Instruments read shapes that are this near to rest [-]; where a body is touched, [`TOUCHING`].
+pub(super) const TOLERANCE: f64 = 1e-6;
+pub(super) const TOUCHING: f64 = 1e-3;
 
 /// A specimen at rest, or as near as it came.
 #[derive(Clone, Debug)]
@@ -71,6 +72,30 @@ impl Rest {
         let settings = Settings { tolerance, frames };
         let settled = settle(&problem, &settings, watch)?;
         Ok(Self { problem, settled })
+    }
+
+    /// A shape that a search judges: at rest, or where so many rounds have left it.
+    ///
+    /// # Errors
+    /// [`LabError::Stopped`] where the watcher ends it: of a shape that was cut short no search can
+    /// tell whether it would have held.
+    pub(super) fn judged(
+        problem: Problem,
+        tolerance: f64,
+        rounds: usize,
+        watch: Watch<'_>,
+    ) -> Result<Self, LabError> {
+        let (mut left, mut stopped) = (rounds, false);
+        let rest = Self::within(problem, tolerance, &mut |progress| {
+            left = left.saturating_sub(1);
+            stopped = stopped || !watch(progress);
+            left > 0 && !stopped
+        })?;
+        if stopped {
+            Err(LabError::Stopped)
+        } else {
+            Ok(rest)
+        }
     }
 
     /// The nodes of an edge of the specimen.
@@ -111,6 +136,40 @@ impl Rest {
         line.iter()
             .map(|node| self.settled.positions[*node])
             .collect()
+    }
+}
+
+/// Where specimens cease to hold.
+pub(super) struct Limit {
+    /// The greatest value at which one held, and the least at which one gave way.
+    pub(super) between: [f64; 2],
+    /// The last that held, and the last that gave way.
+    pub(super) held: Option<Rest>,
+    pub(super) gave: Option<Rest>,
+}
+
+impl Limit {
+    /// Halves between two values until they are so close; `try_at` says whether a specimen held.
+    pub(super) fn find(
+        mut between: [f64; 2],
+        close: f64,
+        mut try_at: impl FnMut(f64) -> Result<(bool, Rest), LabError>,
+    ) -> Result<Self, LabError> {
+        let (mut held, mut gave) = (None, None);
+        while between[1] - between[0] > close {
+            let middle = 0.5 * (between[0] + between[1]);
+            let (holds, rest) = try_at(middle)?;
+            if holds {
+                (between[0], held) = (middle, Some(rest));
+            } else {
+                (between[1], gave) = (middle, Some(rest));
+            }
+        }
+        Ok(Self {
+            between,
+            held,
+            gave,
+        })
     }
 }
 

@@ -6,7 +6,7 @@
 use super::{
     LabError, Reading, Rest, Watch,
     reading::{figures, within},
-    specimen::{hold, rigid, strip},
+    specimen::{Limit, TOUCHING, hold, rigid, strip},
 };
 use crate::{
     body::{Bodies, Part, Shape},
@@ -57,20 +57,13 @@ impl StickSlip {
         within("friction [-]", self.friction, 0.02, 0.37)?;
         // Of 10 cells the tip slips at once, wherever it should.
         within("cells", f64::from(self.cells), 20.0, 200.0)?;
-        let (mut low, mut high) = (0.0, MOST);
-        let mut found = None;
-        while high - low > WITHIN {
-            let middle = 0.5 * (low + high);
-            let rest = self.press(fabric, middle, watch)?;
-            let sticks = rest.middle(Edge::XMax).xy().norm() < AWAY * LENGTH;
-            if sticks {
-                low = middle;
-                found = Some(rest);
-            } else {
-                high = middle;
-            }
-        }
-        let rest = found.ok_or(LabError::NotFound {
+        let limit = Limit::find([0.0, MOST], WITHIN, |part| {
+            let rest = self.press(fabric, part, watch)?;
+            let away = rest.middle(Edge::XMax).xy().norm();
+            Ok((away < AWAY * LENGTH, rest))
+        })?;
+        let [low, high] = limit.between;
+        let rest = limit.held.ok_or(LabError::NotFound {
             what: "a compression at which the tip sticks",
             low: 0.0,
             high: MOST,
@@ -99,11 +92,7 @@ impl StickSlip {
         problem.bodies = Bodies::new(vec![Part::new("floor".into(), &floor, below)?]);
         problem.friction = self.friction;
         problem.thickness = THICKNESS;
-        let mut left = ROUNDS;
-        Rest::within(problem, 1e-3, &mut |progress| {
-            left = left.saturating_sub(1);
-            left > 0 && watch(progress)
-        })
+        Rest::judged(problem, TOUCHING, ROUNDS, watch)
     }
 }
 

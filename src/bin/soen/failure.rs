@@ -1,6 +1,6 @@
 //! Why a command ended early, and its exit code.
 
-use soen::{output::WriteError, scene::SceneError};
+use soen::{lab::LabError, output::WriteError, scene::SceneError};
 use std::{fmt, process::ExitCode};
 
 /// All of the certificate holds, or the command had none to give.
@@ -39,6 +39,15 @@ impl fmt::Display for Failure {
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
         Self::Input(error.to_string())
+    }
+}
+
+impl From<LabError> for Failure {
+    fn from(error: LabError) -> Self {
+        match error {
+            LabError::Stopped => Self::System(error.to_string()),
+            _ => Self::Input(error.to_string()),
+        }
     }
 }
 

@@ -136,7 +136,7 @@ pub(crate) fn lab(wish: &LabWish) -> Result<ExitCode, Failure> {
             let mut test = BiasBend::of(fabric);
             test.twist = twist.unwrap_or(test.twist);
             if let Some(pitch) = of.pitch {
-                test.cells = cells_of(pitch, 2.0 * bending_length(fabric), [4.0, 200.0])?;
+                test.cells = cells_of(pitch, BiasBend::length(fabric), [4.0, 200.0])?;
             }
             Ok(test.run(fabric, watch)?.reading(&test))
         }),
@@ -175,12 +175,6 @@ pub(crate) fn lab(wish: &LabWish) -> Result<ExitCode, Failure> {
         }),
         Test::Verify { json, out, quick } => verify::verify(*json, out.as_deref(), *quick),
     }
-}
-
-/// Mean bending length of a fabric [cm].
-fn bending_length(fabric: &Fabric) -> f64 {
-    let bending = 0.5 * (fabric.warp.bending + fabric.weft.bending);
-    (bending / fabric.weight).cbrt()
 }
 
 /// Cells of a wished pitch [cm] over a length [cm], where so few and so many are allowed.
@@ -247,7 +241,7 @@ fn show(
         !stop.load(Ordering::Relaxed)
     });
     teller.end();
-    let reading = reading.map_err(|error| Failure::Input(error.to_string()))?;
+    let reading = reading?;
     let mut words = vec![("fabric", of.fabric.clone())];
     if let Some(along) = along {
         words.push(("direction", along.direction.yarn().to_string()));

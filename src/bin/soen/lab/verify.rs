@@ -32,14 +32,9 @@ pub(super) fn verify(json: bool, out: Option<&Path>, quick: bool) -> Result<Exit
             }
         },
     );
-    let rows = rows.map_err(|error| Failure::Input(error.to_string()))?;
+    let rows = rows?;
     if let Some(failure) = closed {
         return Err(failure);
-    }
-    if stop.load(Ordering::Relaxed) {
-        return Err(Failure::System(
-            "stopped before every comparison was made".into(),
-        ));
     }
     let table = output::comparisons(&rows);
     if let Some(out) = out {
