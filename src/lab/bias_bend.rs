@@ -128,6 +128,7 @@ impl BiasBent {
         let mean = 0.5 * (warp + weft);
         Reading {
             instrument: "bias-bend",
+            histogram: Vec::new(),
             figures: figures([
                 ("twist_gf_cm", test.twist),
                 ("bending_warp_gf_cm", warp),

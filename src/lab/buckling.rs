@@ -118,6 +118,7 @@ impl Stood {
         let of_theory = 100.0 * (self.length / self.critical - 1.0);
         Reading {
             instrument: "buckling",
+            histogram: Vec::new(),
             figures: figures([
                 ("twist_gf_cm", self.rest.problem.fabric.twist),
                 ("critical_length_cm", self.length),

@@ -124,6 +124,7 @@ impl Bent {
         let line = line.iter().map(|at| [at.x, at.z]).collect();
         Reading {
             instrument: "cantilever",
+            histogram: Vec::new(),
             figures: figures([
                 ("overhang_cm", test.overhang),
                 ("tip_drop_cm", self.tip_drop),
@@ -150,6 +151,7 @@ impl Overhang {
         let rest = self.bent.rest;
         Reading {
             instrument: "cantilever",
+            histogram: Vec::new(),
             figures: figures([
                 ("overhang_cm", self.length),
                 ("slope_deg", SLOPE),

@@ -164,6 +164,7 @@ impl Held {
     pub fn reading(self, test: &Capstan) -> Reading {
         Reading {
             instrument: "capstan",
+            histogram: Vec::new(),
             figures: figures([
                 ("long_end_cm", self.long),
                 ("short_end_cm", self.short),

@@ -195,6 +195,7 @@ impl Drapes {
         };
         Reading {
             instrument: "drapemeter",
+            histogram: self.histogram(),
             figures: figures([
                 ("drape_coefficient_percent", coefficient),
                 ("drape_coefficient_spread_percent", coefficient_spread),

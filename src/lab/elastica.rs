@@ -10,7 +10,7 @@
 //! some 10⁻²² of a long strip; 2. each shot is the classic Runge–Kutta method of fourth order.
 
 use crate::fabric::{Fabric, Tension, Yarn};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Steps from the free end to the root.
 const STEPS: u32 = 4000;
@@ -19,7 +19,7 @@ const HEART_STEPS: u32 = 1000;
 /// A strip longer than this many bending lengths hangs down.
 const LONGEST: f64 = 60.0;
 
-/// A strip clamped level at its root.
+/// A strip under its own weight.
 #[derive(Clone, Copy, Debug)]
 pub struct Heavy<'a> {
     /// Weight per area [gf/cm²].
@@ -32,7 +32,7 @@ pub struct Heavy<'a> {
     pub length: f64,
 }
 
-/// Angle to the vertical and its slope, and the way from the free end, level and down.
+/// Angle and its slope by the length, and the way so far, level and upright.
 type State = [f64; 4];
 
 impl<'a> Heavy<'a> {
@@ -48,7 +48,7 @@ impl<'a> Heavy<'a> {
         }
     }
 
-    /// Where the free end is, level from the root and above it [cm].
+    /// Where the free end is of a strip clamped level at its root, level from there and above it [cm].
     #[must_use]
     pub fn tip(&self) -> [f64; 2] {
         let bending_length = libm::cbrt(self.bending / self.weight);
@@ -98,31 +98,19 @@ const WEIGHTS: u32 = 120;
 /// Newton's steps for each.
 const NEWTON: usize = 20;
 
-/// A strip whose ends are clamped together, both upwards.
-///
-/// From its lowest point on, s the rest length, θ the strip's angle to the level and H its level
-/// tension: `M·θ'' = (1 + S)·(H·sin θ − W·s·cos θ)`. Half a length on it is back in the middle, and
-/// θ = 3π/2. The curvature at the lowest point and H are found by Newton's method, the weight raised
-/// from none in steps.
-#[derive(Clone, Copy, Debug)]
-pub struct Heart<'a> {
-    /// Weight per area [gf/cm²].
-    pub weight: f64,
-    /// Bending moment per width and curvature [gf·cm].
-    pub bending: f64,
-    /// How it stretches; not at all where absent.
-    pub tension: Option<&'a Tension>,
-    /// Length from clamp to clamp [cm].
-    pub length: f64,
-}
-
-impl Heart<'_> {
-    /// From the clamp to the lowest point [cm]; `None` where Newton's method does not find it.
+impl Heavy<'_> {
+    /// How high a heart of this strip is that hangs from both ends, clamped together and upwards: from
+    /// the clamp to the lowest point [cm]; `None` where Newton's method does not find it.
+    ///
+    /// From the lowest point on, s the rest length, θ the strip's angle to the level and H its level
+    /// tension: `M·θ'' = (1 + S)·(H·sin θ − W·s·cos θ)`. Half a length on it is back in the middle,
+    /// and θ = 3π/2. The curvature at the lowest point and H are found by Newton's method, the weight
+    /// raised from none in steps.
     #[must_use]
-    pub fn height(&self) -> Option<f64> {
+    pub fn heart(&self) -> Option<f64> {
         let half = 0.5 * self.length;
         // A circle is near what a loop without weight is.
-        let mut start = [1.5 * core::f64::consts::PI / half, 0.0];
+        let mut start = [1.5 * PI / half, 0.0];
         let mut before = None;
         let mut height = None;
         for k in 0..=WEIGHTS {
@@ -142,14 +130,14 @@ impl Heart<'_> {
         let half = 0.5 * self.length;
         let steps = [1e-6 / half, 1e-6 * self.bending / (half * half)];
         for _ in 0..NEWTON {
-            let [turn, off, height] = self.shoot(*start);
+            let [turn, off, height] = self.shoot_heart(*start);
             if turn.abs() < 1e-10 && off.abs() < 1e-10 * half {
                 return Some(height);
             }
             let beside = |axis: usize| {
                 let mut moved = *start;
                 moved[axis] += steps[axis];
-                let [there, off_there, _] = self.shoot(moved);
+                let [there, off_there, _] = self.shoot_heart(moved);
                 [
                     (there - turn) / steps[axis],
                     (off_there - off) / steps[axis],
@@ -168,7 +156,7 @@ impl Heart<'_> {
 
     /// How far the angle at the clamp is from 3π/2, how far the clamp is from the middle [cm], and
     /// how high it is [cm].
-    fn shoot(&self, [curvature, level]: [f64; 2]) -> [f64; 3] {
+    fn shoot_heart(&self, [curvature, level]: [f64; 2]) -> [f64; 3] {
         let step = 0.5 * self.length / f64::from(HEART_STEPS);
         let slope = |s: f64, [angle, turn, ..]: &State| -> State {
             let (sine, cosine) = libm::sincos(*angle);
@@ -190,7 +178,7 @@ impl Heart<'_> {
             |_| false,
         )
         .unwrap_or_default();
-        [angle - 1.5 * core::f64::consts::PI, off, height]
+        [angle - 1.5 * PI, off, height]
     }
 }
 
@@ -311,13 +299,13 @@ mod tests {
     /// Peirce 1930: 0.1337 of the length without weight; by shooting 0.13386.
     #[test]
     fn a_heart_without_weight_is_as_high_as_peirce_found() {
-        let heart = Heart {
+        let strip = Heavy {
             weight: 1e-12,
             bending: 1.0,
             tension: None,
             length: 1.0,
         };
-        let height = heart.height().unwrap();
+        let height = strip.heart().unwrap();
         assert!((height - 0.1337).abs() < 2e-4, "{height}");
     }
 
@@ -327,13 +315,13 @@ mod tests {
     #[test]
     fn a_heart_that_hangs_is_within_an_eighth_of_peirces_bending() {
         for (length, other) in [(6.0, 1.365_940_3), (8.0, 2.368_349_9), (10.0, 3.484_903_6)] {
-            let heart = Heart {
+            let strip = Heavy {
                 weight: 1.0,
                 bending: 1.0,
                 tension: None,
                 length,
             };
-            let (height, weightless) = (heart.height().unwrap(), 0.1337 * length);
+            let (height, weightless) = (strip.heart().unwrap(), 0.1337 * length);
             assert!((height - other).abs() < 1e-6, "{length}: {height}");
             let angle = (32.85 * (height / weightless - 1.0)).to_radians();
             let found = (weightless * (angle.cos() / angle.tan()).cbrt()).powi(3);

@@ -118,6 +118,7 @@ impl Heart {
         let line = self.rest.line();
         Reading {
             instrument: "heart-loop",
+            histogram: Vec::new(),
             figures: figures([
                 ("loop_height_cm", self.height),
                 ("bending_length_cm", self.bending_length),

@@ -31,6 +31,8 @@ pub struct Trace {
 pub struct Reading {
     /// The instrument, as the command line names it.
     pub instrument: &'static str,
+    /// What was counted, and how often: the folds of several layings. Empty for what counts nothing.
+    pub histogram: Vec<[usize; 2]>,
     /// Its numbers, in the order to print them in.
     pub figures: Vec<Figure>,
     /// Its curve.

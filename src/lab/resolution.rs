@@ -149,6 +149,7 @@ impl Resolved {
             .all(|laying| laying.rest.settled.converged);
         Reading {
             instrument: "resolution",
+            histogram: Vec::new(),
             figures: all,
             trace: Some(Trace {
                 x: "pitch [cm]",

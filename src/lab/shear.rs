@@ -295,6 +295,7 @@ impl Frame {
         let last = self.positions.pop();
         Reading {
             instrument: "shear",
+            histogram: Vec::new(),
             figures: figures([
                 ("shear_gf_per_cm", shear),
                 ("load_gf", self.load),

@@ -95,6 +95,7 @@ impl Slid {
     pub fn reading(self, test: &Slope) -> Reading {
         Reading {
             instrument: "slope",
+            histogram: Vec::new(),
             figures: figures([
                 ("sliding_angle_deg", self.angle),
                 ("friction", self.friction),

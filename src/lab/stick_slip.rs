@@ -102,6 +102,7 @@ impl Slipped {
     pub fn reading(self, test: &StickSlip) -> Reading {
         Reading {
             instrument: "stick-slip",
+            histogram: Vec::new(),
             figures: figures([
                 ("friction", test.friction),
                 ("compression_at_slip", self.compression),

@@ -73,6 +73,7 @@ impl Hung {
         let of_continuum = 100.0 * (self.elongation / self.continuum - 1.0);
         Reading {
             instrument: "strip",
+            histogram: Vec::new(),
             figures: figures([
                 ("elongation_cm", self.elongation),
                 ("continuum_elongation_cm", self.continuum),
@@ -173,6 +174,7 @@ impl Pulled {
         let [strain, tension] = self.curve.last().copied().unwrap_or_default();
         Reading {
             instrument: "strip",
+            histogram: Vec::new(),
             figures: figures([("strain", strain), ("tension_gf_per_cm", tension)]),
             trace: Some(Trace {
                 x: "strain [-]",

@@ -46,6 +46,9 @@ impl Serialize for Flat<'_> {
         for figure in &self.reading.figures {
             map.serialize_entry(figure.key, &figure.value)?;
         }
+        if !self.reading.histogram.is_empty() {
+            map.serialize_entry("histogram", &self.reading.histogram)?;
+        }
         map.serialize_entry("converged", &self.reading.certified)?;
         if let Some(trace) = &self.reading.trace {
             map.serialize_entry("curve", &Curves(trace))?;
@@ -75,6 +78,7 @@ mod tests {
     fn a_reading_is_one_flat_object_in_order() {
         let shown = Reading {
             instrument: "cantilever",
+            histogram: vec![[7, 4], [8, 6]],
             figures: vec![
                 Figure {
                     key: "tip_drop_cm",
@@ -109,6 +113,7 @@ mod tests {
         assert!(places.is_sorted() && places[0].is_some(), "{text}");
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
         assert_eq!(value["tip_drop_cm"], 3.5);
+        assert_eq!(value["histogram"][1][1], 6);
         assert!(value["nothing"].is_null());
         assert_eq!(value["curve"]["lines"][0][1][1][1], -0.5);
     }

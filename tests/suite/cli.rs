@@ -2,11 +2,7 @@
 
 use crate::trial::{SCENE, Trial};
 use soen::fabric::SWATCHES;
-use std::{
-    fs,
-    io::{BufRead, BufReader, Read},
-    process::{Command, Stdio},
-};
+use std::fs;
 
 #[test]
 fn help_names_every_command_and_its_exit_codes() {
@@ -189,25 +185,8 @@ fn ctrl_c_stops_and_still_writes() {
     let trial = Trial::new();
     let endless = SCENE.replace("tolerance = 1e-3", "tolerance = 1e-12");
     trial.put("scene.toml", endless.as_bytes());
-    let mut run = Command::new(env!("CARGO_BIN_EXE_soen"))
-        .args(["drape", "scene.toml", "--out", "out"])
-        .current_dir(trial.path())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // The first line of progress says that it listens.
-    let mut err = BufReader::new(run.stderr.take().unwrap());
-    let mut line = String::new();
-    err.read_line(&mut line).unwrap();
-    let kill = Command::new("kill")
-        .args(["-INT", &run.id().to_string()])
-        .status();
-    assert!(kill.unwrap().success());
-    err.read_to_string(&mut line).unwrap();
-    let output = run.wait_with_output().unwrap();
-    let out = String::from_utf8(output.stdout).unwrap();
-    stopped(&trial, output.status.code().unwrap_or(-1), &out, &line);
+    let said = trial.interrupt(&["drape", "scene.toml", "--out", "out"]);
+    stopped(&trial, said.code, &said.out, &said.err);
 }
 
 #[track_caller]

@@ -2,8 +2,9 @@
 
 use std::{
     fs,
+    io::{BufRead, BufReader, Read},
     path::Path,
-    process::{Command, Output},
+    process::{Command, Output, Stdio},
 };
 use tempfile::TempDir;
 
@@ -76,6 +77,33 @@ impl Trial {
         };
         assert!(!said.err.contains("panicked"), "{}", said.err);
         said
+    }
+
+    /// Starts a run, presses Ctrl-C as soon as its first line of progress says that it listens, and
+    /// waits for its end.
+    #[cfg(unix)]
+    pub(crate) fn interrupt(&self, arguments: &[&str]) -> Said {
+        let mut run = Command::new(env!("CARGO_BIN_EXE_soen"))
+            .args(arguments)
+            .current_dir(self.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut said = BufReader::new(run.stderr.take().unwrap());
+        let mut err = String::new();
+        said.read_line(&mut err).unwrap();
+        let kill = Command::new("kill")
+            .args(["-INT", &run.id().to_string()])
+            .status();
+        assert!(kill.unwrap().success());
+        said.read_to_string(&mut err).unwrap();
+        let output = run.wait_with_output().unwrap();
+        Said {
+            code: output.status.code().unwrap_or(-1),
+            out: String::from_utf8(output.stdout).unwrap(),
+            err,
+        }
     }
 
     /// Whether what stood in `out` still stands there.

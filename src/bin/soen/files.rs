@@ -32,13 +32,10 @@ impl<'a> Files<'a> {
             lattice: &settled.lattice,
             positions: &settled.positions,
         };
-        let mark = (!settled.converged).then_some("NOT AT REST: stopped before it was certified");
+        let mark = mark(settled);
         Self {
             out: &wish.out,
-            title: match mark {
-                None => scene.title.clone(),
-                Some(mark) => format!("{} ({mark})", scene.title),
-            },
+            title: marked(&scene.title, mark),
             caption: mark,
             size: if wish.preview { PREVIEW } else { DRAPE },
             cloth,
@@ -94,6 +91,19 @@ impl<'a> Files<'a> {
 
     fn put(&self, name: &str, bytes: &[u8]) -> Result<(), Failure> {
         Ok(output::write(&self.out.join(name), bytes)?)
+    }
+}
+
+/// What pictures and titles say of a drape that is not at rest.
+pub(crate) fn mark(settled: &Settled) -> Option<&'static str> {
+    (!settled.converged).then_some("NOT AT REST: stopped before it was certified")
+}
+
+/// A title with its mark.
+pub(crate) fn marked(title: &str, mark: Option<&str>) -> String {
+    match mark {
+        None => title.to_owned(),
+        Some(mark) => format!("{title} ({mark})"),
     }
 }
 

@@ -99,14 +99,16 @@ pub fn verify(
         stopped = stopped || !watch(progress);
         !stopped
     };
-    let each: [Compare; 3] = [strips::compare, round_trip::compare, friction::compare];
-    let each = each.into_iter().take(if quick { 2 } else { 3 });
+    let each: [Compare; 4] = [
+        strips::compare,
+        round_trip::compare,
+        twist::compare,
+        friction::compare,
+    ];
+    let each = each.into_iter().take(if quick { 3 } else { 4 });
     let each = each.flat_map(|compare| fabrics.iter().map(move |one| (compare, one)));
     for (compare, fabric) in each {
         add(&mut all, compare(fabric, &mut watch)?, tell);
-    }
-    if let Some(fabric) = fabrics.get(STIFF) {
-        add(&mut all, twist::compare(fabric, &mut watch)?, tell);
     }
     if !quick {
         drape::compare(fabrics, &mut watch, &mut |rows| add(&mut all, rows, tell))?;
@@ -120,9 +122,6 @@ pub fn verify(
 
 /// A group of comparisons of one fabric.
 type Compare = fn(&Named, Watch<'_>) -> Result<Vec<Comparison>, LabError>;
-
-/// Which fabric rods' theories are tried on: their strips are rigid in their plane, so any will do.
-const STIFF: usize = 3;
 
 fn add(all: &mut Vec<Comparison>, found: Vec<Comparison>, tell: &mut dyn FnMut(&Comparison)) {
     found.iter().for_each(tell);

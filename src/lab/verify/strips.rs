@@ -77,7 +77,7 @@ fn overhang(fabric: &Named, yarn: Yarn, watch: Watch<'_>) -> Result<[Comparison;
     // A fifth of the bending length, as L is two.
     let found = Cantilever::overhang(&fabric.1, yarn, 10, watch)?;
     let bending = fabric.1.along(yarn).bending;
-    let length = 2.000_349_691_57 * libm::cbrt(bending / fabric.1.weight);
+    let length = 2.000_349_691_57 * fabric.1.bending_length(yarn);
     let test = name("cantilever at 41.5°", fabric, yarn);
     Ok([
         Comparison {
@@ -100,26 +100,12 @@ fn overhang(fabric: &Named, yarn: Yarn, watch: Watch<'_>) -> Result<[Comparison;
 }
 
 fn heart(fabric: &Named, yarn: Yarn, watch: Watch<'_>) -> Result<Vec<Comparison>, LabError> {
-    let (weight, direction) = (fabric.1.weight, fabric.1.along(yarn));
-    let bending = direction.bending;
-    let length = 10.0 * libm::cbrt(bending / weight);
-    let pitch = length / 80.0;
-    let heart = HeartLoop {
-        yarn,
-        length,
-        pitch,
-    }
-    .run(&fabric.1, watch)?;
-    let tension = Some(&direction.tension);
-    let exact = elastica::Heart {
-        weight,
-        bending,
-        tension,
-        length,
-    };
+    let test = HeartLoop::of(&fabric.1, yarn);
+    let heart = test.run(&fabric.1, watch)?;
+    let exact = elastica::Heavy::of(&fabric.1, yarn, test.length);
     let test = name("heart loop of 10 c", fabric, yarn);
     let mut rows: Vec<Comparison> = Vec::new();
-    rows.extend(exact.height().map(|reference| Comparison {
+    rows.extend(exact.heart().map(|reference| Comparison {
         test: test.clone(),
         quantity: "height of the loop [cm]",
         figure: heart.height,
@@ -131,7 +117,7 @@ fn heart(fabric: &Named, yarn: Yarn, watch: Watch<'_>) -> Result<Vec<Comparison>
         test,
         quantity: "M_BN by Peirce [gf·cm]",
         figure: heart.bending,
-        reference: bending,
+        reference: fabric.1.along(yarn).bending,
         allowed: Allowed::Shown,
         source: "Peirce 1930, an approximation",
     });

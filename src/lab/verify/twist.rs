@@ -1,4 +1,4 @@
-//! What needs no particular fabric: buckling, twist on the bias, stick and slip.
+//! Theories of rods: stick and slip, buckling, and twist on the bias.
 
 use super::{Allowed, Comparison, Named, name};
 use crate::{

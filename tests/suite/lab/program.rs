@@ -1,11 +1,7 @@
 //! `soen lab`: one slip each gets exit code 2 and a message; what is right gets its files.
 
 use crate::trial::Trial;
-use std::{
-    fs,
-    io::{BufRead, BufReader, Read},
-    process::{Command, Stdio},
-};
+use std::fs;
 
 /// What is asked of `soen lab`, and what the message must say.
 const SLIPS: &[(&str, &[&str])] = &[
@@ -341,28 +337,39 @@ fn a_reading_names_its_numbers_with_units_and_says_it_is_certified() {
 #[test]
 fn ctrl_c_stops_an_instrument_and_the_reading_says_so() {
     let trial = Trial::new();
-    let mut run = Command::new(env!("CARGO_BIN_EXE_soen"))
-        .args(["lab", "drapemeter", "--fabric", "c", "--seeds", "1"])
-        .args(["--pitch", "0.2", "--out", "out"])
-        .current_dir(trial.path())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // The first line of progress says that it listens.
-    let mut err = BufReader::new(run.stderr.take().unwrap());
-    let mut line = String::new();
-    err.read_line(&mut line).unwrap();
-    let kill = Command::new("kill")
-        .args(["-INT", &run.id().to_string()])
-        .status();
-    assert!(kill.unwrap().success());
-    err.read_to_string(&mut line).unwrap();
-    let output = run.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(3), "{line}");
-    let out = String::from_utf8(output.stdout).unwrap();
+    let said = trial.interrupt(&[
+        "lab",
+        "drapemeter",
+        "--fabric",
+        "c",
+        "--seeds",
+        "1",
+        "--pitch",
+        "0.2",
+        "--out",
+        "out",
+    ]);
+    assert_eq!(said.code, 3, "{}", said.err);
+    let out = said.out;
     assert!(out.contains("NOT certified"), "{out}");
     let reading = fs::read_to_string(trial.path().join("out/reading.json")).unwrap();
     let reading: serde_json::Value = serde_json::from_str(&reading).unwrap();
     assert_eq!(reading["converged"], false);
+}
+
+/// A slope that was stopped once read the last one on which the cloth was seen to lie, as certified.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_a_search_without_an_answer() {
+    let trial = Trial::new();
+    for instrument in ["slope", "capstan", "stick-slip"] {
+        let said = trial.interrupt(&["lab", instrument, "--fabric", "c", "--friction", "0.3"]);
+        assert_eq!(said.code, 1, "{instrument}: {}", said.err);
+        assert!(
+            said.err.contains("stopped before it was measured"),
+            "{}",
+            said.err
+        );
+        assert_eq!(said.out, "");
+    }
 }

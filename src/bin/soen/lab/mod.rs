@@ -6,6 +6,7 @@ mod verify;
 use crate::{
     drape::stopped_by_ctrl_c,
     failure::{DONE, Failure, uncertified},
+    files::{mark, marked},
     progress::Teller,
     say,
 };
@@ -282,10 +283,9 @@ fn write(out: &Path, reading: &Reading, json: &str) -> Result<(), Failure> {
             positions: &rest.settled.positions,
         };
         let bodies = output::body_meshes(&rest.problem.bodies);
-        let obj = output::obj(reading.instrument, &cloth);
+        let caption = mark(&rest.settled);
+        let obj = output::obj(&marked(reading.instrument, caption), &cloth);
         output::write(&out.join("drape.obj"), obj.as_bytes())?;
-        let caption =
-            (!rest.settled.converged).then_some("NOT AT REST: stopped before it was certified");
         let view = View {
             caption,
             ..View::default()
@@ -302,10 +302,12 @@ fn table(reading: &Reading, fabric: &Fabric) -> String {
     let head = format!("{}, {}\n", reading.instrument, fabric.name);
     let rows = reading.figures.iter();
     let rows = rows.map(|figure| format!("  {:34}{:>14.6}\n", figure.key, figure.value));
+    let counts = reading.histogram.iter();
+    let counts = counts.map(|[folds, times]| format!("  {times} with {folds} folds\n"));
     let verdict = if reading.certified {
         "certified: at rest\n"
     } else {
         "NOT certified: stopped before it was at rest\n"
     };
-    head + &rows.collect::<String>() + verdict
+    head + &rows.chain(counts).collect::<String>() + verdict
 }
