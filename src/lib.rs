@@ -76,6 +76,9 @@ pub mod forces;
 pub mod body;
 pub mod contact;
 
+// Who wears it.
+pub mod skeleton;
+
 // Rest, and the proof of it.
 pub mod certificate;
 pub mod solver;

@@ -18,7 +18,7 @@
 //!   Coulomb friction, no reuse and no clustering of contacts: no less than without.
 
 use crate::square::{Crew, Tried};
-use rapier3d_f64::prelude::{
+use rapier3d::prelude::{
     ColliderBuilder, PhysicsWorld, RigidBodyBuilder, SoftBody, SoftBodyBuilder, SoftBodyHandle,
     SpringCoefficients, Vector,
 };
