@@ -150,6 +150,19 @@ impl Part {
         self.centre
     }
 
+    /// Where a point [cm] that moves with this part is now, by where it was with the part as it
+    /// `was`.
+    pub(crate) fn carries(&self, was: &Self, point: &Vec3) -> Vec3 {
+        let own = was.pose.inverse_transform_point((*point).into());
+        (self.pose * own).into()
+    }
+
+    /// The same for a direction.
+    pub(crate) fn carries_direction(&self, was: &Self, direction: &Vec3) -> Vec3 {
+        let own = was.pose.rotation.inverse() * Vector::from(*direction);
+        (self.pose.rotation * own).into()
+    }
+
     /// Its surface as triangles in space [cm], for pictures and files; round shapes are divided
     /// finely.
     #[must_use]

@@ -65,6 +65,15 @@ impl Bodies {
         &self.parts
     }
 
+    /// A part as it is here and as it is in other bodies; `None` where either has no such part.
+    pub(crate) fn part_then_and_now<'a>(
+        &'a self,
+        part: usize,
+        now: &'a Self,
+    ) -> Option<(&'a Part, &'a Part)> {
+        self.parts.get(part).zip(now.parts.get(part))
+    }
+
     /// The box around all parts: its least and greatest corner [cm]; `None` without parts.
     #[must_use]
     pub fn extent(&self) -> Option<(Vec3, Vec3)> {

@@ -7,12 +7,14 @@
 //! part of a body: the plane of the nearest surface, and the anchor that friction holds on to.
 
 mod deepest;
+mod footing;
 mod law;
 mod sites;
 mod touch;
 mod touches;
 
 pub(crate) use deepest::faces_around;
+pub use footing::Footing;
 pub use law::{Friction, Skin};
 pub(crate) use sites::corner_of;
 pub use sites::{Site, Sites};

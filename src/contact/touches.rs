@@ -67,6 +67,8 @@ pub struct Touches {
     surface: Surface,
     pitch: f64,
     touches: Vec<Touch>,
+    /// Whether limits of friction outlast a moment without load.
+    firm: bool,
     /// Those that could act, in order.
     awake: Vec<u32>,
     /// For each node, its touches that could act.
@@ -77,7 +79,7 @@ pub struct Touches {
     places: Vec<Places>,
 }
 
-type Places = [Option<[f64; 2]>; PLACES];
+pub(super) type Places = [Option<[f64; 2]>; PLACES];
 
 /// A site with a surface near it.
 struct Found {
@@ -96,12 +98,29 @@ impl Touches {
             surface,
             pitch: lattice.pitch,
             touches: Vec::new(),
+            firm: false,
             awake: Vec::new(),
             of_node: vec![Vec::new(); nodes],
             clearance: vec![(0.0, Vec3::repeat(f64::INFINITY)); nodes],
             places: vec![[None; PLACES]; sites.cells().len()],
             sites,
         }
+    }
+
+    /// Where features meet each cell.
+    pub(super) fn places(&self) -> &[Places] {
+        &self.places
+    }
+
+    /// Goes on with touches, in order, and places that were found before; nothing is known of
+    /// clearances.
+    pub(super) fn take_up(&mut self, touches: Vec<Touch>, places: Vec<Places>) {
+        self.touches = touches;
+        self.places = places;
+        for clearance in &mut self.clearance {
+            *clearance = (0.0, Vec3::repeat(f64::INFINITY));
+        }
+        self.list_awake(|_| true);
     }
 
     /// Sets Coulomb friction [-] from the next look at the loads on.
@@ -113,6 +132,15 @@ impl Touches {
     #[must_use]
     pub fn list(&self) -> &[Touch] {
         &self.touches
+    }
+
+    pub(super) fn list_mut(&mut self) -> &mut [Touch] {
+        &mut self.touches
+    }
+
+    /// Sets whether limits of friction outlast a moment without load.
+    pub(super) fn hold_on(&mut self, firm: bool) {
+        self.firm = firm;
     }
 
     /// Looks again which sites are near a body: nodes that could touch after a move of `way` [cm],
@@ -335,13 +363,17 @@ impl Touches {
     }
 
     /// Sets every friction limit to µ times the normal force now. Touches that do not press let
-    /// go of their anchor.
+    /// go of their anchor. While the cloth is held firmly, what holds on
+    /// keeps its limit.
     pub fn look_at_loads(&mut self, at: &[Vec3]) {
         for touch in &mut self.touches {
             let here = touch.site.at(at);
             let (_, load, _) = touch.skin.answer(touch.top - touch.normal.dot(&here));
             if touch.friction.limit == 0.0 {
                 touch.anchor = here;
+            }
+            if self.firm && touch.friction.limit > 0.0 {
+                continue;
             }
             let limit = self.surface.friction * load;
             if !(limit * (1.0 - LIMIT_KEPT)..=limit).contains(&touch.friction.limit) {

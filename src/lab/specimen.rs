@@ -7,7 +7,7 @@ use crate::{
     forces::Laws,
     lattice::{Edge, Outline, Piece},
     math::{Vec2, Vec3},
-    solver::{ForceModel, Grip, Hold, Placement, Problem, Settings, Settled, settle},
+    solver::{ForceModel, Grip, Hold, Placement, Problem, Settings, Settled, go_on, settle},
 };
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -85,17 +85,25 @@ impl Rest {
         rounds: usize,
         watch: Watch<'_>,
     ) -> Result<Self, LabError> {
-        let (mut left, mut stopped) = (rounds, false);
-        let rest = Self::within(problem, tolerance, &mut |progress| {
-            left = left.saturating_sub(1);
-            stopped = stopped || !watch(progress);
-            left > 0 && !stopped
-        })?;
-        if stopped {
-            Err(LabError::Stopped)
-        } else {
-            Ok(rest)
-        }
+        judged(rounds, watch, |watch| {
+            Self::within(problem, tolerance, watch)
+        })
+    }
+
+    /// The same, gone on to from this rest as bodies and holds move.
+    pub(super) fn on_to(
+        &self,
+        problem: Problem,
+        tolerance: f64,
+        rounds: usize,
+        watch: Watch<'_>,
+    ) -> Result<Self, LabError> {
+        let frames = 0;
+        let settings = Settings { tolerance, frames };
+        judged(rounds, watch, |watch| {
+            let settled = go_on(&problem, &[], &self.settled, &settings, watch)?;
+            Ok(Self { problem, settled })
+        })
     }
 
     /// The nodes of an edge of the specimen.
@@ -136,6 +144,25 @@ impl Rest {
         line.iter()
             .map(|node| self.settled.positions[*node])
             .collect()
+    }
+}
+
+/// Gives a rest so many rounds.
+fn judged(
+    rounds: usize,
+    watch: Watch<'_>,
+    come_to: impl FnOnce(Watch<'_>) -> Result<Rest, LabError>,
+) -> Result<Rest, LabError> {
+    let (mut left, mut stopped) = (rounds, false);
+    let rest = come_to(&mut |progress| {
+        left = left.saturating_sub(1);
+        stopped = stopped || !watch(progress);
+        left > 0 && !stopped
+    })?;
+    if stopped {
+        Err(LabError::Stopped)
+    } else {
+        Ok(rest)
     }
 }
 

@@ -6,7 +6,7 @@
 use super::{
     LabError, Reading, Rest, Watch,
     reading::{figures, within},
-    specimen::{Limit, TOUCHING, hold, rigid, strip},
+    specimen::{TOUCHING, hold, rigid, strip},
 };
 use crate::{
     body::{Bodies, Part, Shape},
@@ -43,13 +43,18 @@ const WEIGHTLESS: f64 = 0.02;
 const AWAY: f64 = 0.03;
 /// Compressions are tried up to this; beyond it the tip lies flat.
 const MOST: f64 = 0.36;
+/// The clamp's first step, in which the strip comes to lie on its bent side, those that follow, and
+/// how fine the last ones are.
+const FIRST: f64 = 0.01;
+const STEP: f64 = 0.01;
 const WITHIN: f64 = 5e-4;
 /// Rounds that a strip has to come to rest.
 const ROUNDS: usize = 1000;
 const THICKNESS: f64 = 0.01;
 
 impl StickSlip {
-    /// Halves between sticking and slipping.
+    /// Lowers the clamp step by step, each from where the last came to rest, until the tip slips;
+    /// then again with half the step from before it did.
     ///
     /// # Errors
     /// [`LabError`] where a setting is out of range or the tip never slips.
@@ -57,25 +62,40 @@ impl StickSlip {
         within("friction [-]", self.friction, 0.02, 0.37)?;
         // Of 10 cells the tip slips at once, wherever it should.
         within("cells", f64::from(self.cells), 20.0, 200.0)?;
-        let limit = Limit::find([0.0, MOST], WITHIN, |part| {
-            let rest = self.press(fabric, part, watch)?;
-            let away = rest.middle(Edge::XMax).xy().norm();
-            Ok((away < AWAY * LENGTH, rest))
-        })?;
-        let [low, high] = limit.between;
-        let rest = limit.held.ok_or(LabError::NotFound {
-            what: "a compression at which the tip sticks",
+        let (mut at, mut step) = (0.0, FIRST);
+        let mut rest = None;
+        while step > WITHIN {
+            let pressed = self.press(fabric, at + step, rest.as_ref(), watch)?;
+            if pressed.middle(Edge::XMax).xy().norm() < AWAY * LENGTH {
+                (at, rest) = (at + step, Some(pressed));
+                step = step.min(STEP);
+            } else {
+                step *= 0.5;
+            }
+            if at > MOST {
+                break;
+            }
+        }
+        let found = rest.filter(|_| at <= MOST);
+        let rest = found.ok_or(LabError::NotFound {
+            what: "a compression at which the tip slips",
             low: 0.0,
             high: MOST,
         })?;
         // As it stands: under its load the tip comes to lie a little below the floor's skin.
         let height = rest.middle(Edge::XMin).z - rest.middle(Edge::XMax).z;
-        let compression = 1.0 - height / LENGTH + 0.5 * (high - low);
+        let compression = 1.0 - height / LENGTH + step;
         Ok(Slipped { compression, rest })
     }
 
-    /// The strip, its clamp lowered by a part of its length.
-    fn press(&self, fabric: &Fabric, part: f64, watch: Watch<'_>) -> Result<Rest, LabError> {
+    /// The strip, its clamp lowered by a part of its length, from where it stood before if it did.
+    fn press(
+        &self,
+        fabric: &Fabric,
+        part: f64,
+        before: Option<&Rest>,
+        watch: Watch<'_>,
+    ) -> Result<Rest, LabError> {
         let mut cloth = rigid(fabric, LENGTH);
         let bending = cloth.along(self.yarn).bending;
         cloth.weight = WEIGHTLESS * bending / (LENGTH * LENGTH * LENGTH);
@@ -92,7 +112,10 @@ impl StickSlip {
         problem.bodies = Bodies::new(vec![Part::new("floor".into(), &floor, below)?]);
         problem.friction = self.friction;
         problem.thickness = THICKNESS;
-        Rest::judged(problem, TOUCHING, ROUNDS, watch)
+        match before {
+            None => Rest::judged(problem, TOUCHING, ROUNDS, watch),
+            Some(before) => before.on_to(problem, TOUCHING, ROUNDS, watch),
+        }
     }
 }
 

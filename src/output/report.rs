@@ -155,6 +155,7 @@ mod tests {
         let sample::Placed { lattice, positions } = sample::wave(3, 2, 1.0);
         Settled {
             holding: Vec::new(),
+            footing: crate::contact::Footing::default(),
             contact: vec![0.0; positions.len()],
             lattice,
             positions,

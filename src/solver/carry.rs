@@ -30,11 +30,12 @@ pub(super) fn carry_over(
     for (node, carry) in &start.carry {
         level.at[*node as usize] = flat[*node as usize] + carry;
     }
-    push_out(level, surface, &from);
+    push_out(level, surface, &from, 0.0);
 }
 
-/// Brings free nodes that are in a body, or beyond a sheet from where the cloth is, to the surface.
-fn push_out(level: &mut Level<'_>, surface: &Surface, from: &[Vec3]) {
+/// Brings free nodes that are deeper than this [cm] in a body, or beyond a sheet from where the cloth
+/// is, to the surface.
+pub(super) fn push_out(level: &mut Level<'_>, surface: &Surface, from: &[Vec3], deep: f64) {
     for (node, from) in from.iter().enumerate() {
         if level.held[node] {
             continue;
@@ -44,6 +45,7 @@ fn push_out(level: &mut Level<'_>, surface: &Surface, from: &[Vec3]) {
             let nears = level.bodies.near_from(from, at, 0.0);
             nears
                 .into_iter()
+                .filter(|near| near.distance <= -deep)
                 .min_by(|a, b| a.distance.total_cmp(&b.distance))
         };
         for _ in 0..PUSHES {

@@ -38,6 +38,7 @@ pub(super) fn descend(
         levels: lattices.len(),
         film: Film::new(settings.frames),
         stopped: false,
+        lands: true,
     };
     for (number, lattice) in lattices.iter().enumerate() {
         let last = number + 1 == lattices.len();
@@ -58,13 +59,7 @@ pub(super) fn descend(
         }
         start.disturb(&mut level.at, lattice, problem);
         let remaining = run.rest(&mut level, &case, &start, number);
-        work.push(LevelWork {
-            spacing: lattice.pitch,
-            nodes: level.at.len(),
-            sweeps: level.sweeps,
-            joint_steps: level.joint_steps,
-            updates: level.updates,
-        });
+        work.push(level.work());
         if last {
             let settled = finish(&case, level, work, settings, remaining);
             return Ok(Settled {
@@ -105,7 +100,7 @@ pub(super) fn sweeps(problem: &Problem, count: usize) -> Result<Vec<Vec3>, Unsol
 }
 
 /// One lattice of a problem, as the certificate sees it.
-fn case_of<'a>(
+pub(super) fn case_of<'a>(
     problem: &'a Problem,
     lattice: &'a Lattice,
     start: &'a Start,
@@ -124,7 +119,7 @@ fn case_of<'a>(
 }
 
 /// The bodies' surface as the finest cloth meets it.
-fn surface(problem: &Problem) -> Surface {
+pub(super) fn surface(problem: &Problem) -> Surface {
     Surface {
         node_skin: skin(problem.piece.pitch).min(NODE_SKIN),
         sample_skin: THINNEST_SKIN,
@@ -169,7 +164,7 @@ fn cuts(problem: &Problem, surface: &Surface) -> Result<Vec<Lattice>, Unsolvable
     Ok(lattices)
 }
 
-fn finish(
+pub(super) fn finish(
     case: &Case<'_>,
     level: Level<'_>,
     levels: Vec<LevelWork>,
@@ -186,6 +181,7 @@ fn finish(
         holding: holding.collect(),
         lattice: level.lattice.clone(),
         contact: level.touches.loads(&level.at),
+        footing: level.touches.footing(&level.at, case.bodies),
         converged: certificate.holds(settings.tolerance),
         shape: drape_shape(case, &level.at),
         certificate,

@@ -1,6 +1,6 @@
 //! One lattice on its way to rest: what the sweeps and the joint steps both work on.
 
-use super::{start::number, stream::Stream};
+use super::{Level as LevelWork, start::number, stream::Stream};
 use crate::{
     body::Bodies, certificate::Case, contact::Touches, forces::Sheet, lattice::Lattice, math::Vec3,
     threads,
@@ -52,6 +52,17 @@ impl<'a> Level<'a> {
             sweeps: 0,
             joint_steps: 0,
             updates: 0,
+        }
+    }
+
+    /// The work done on it.
+    pub(super) fn work(&self) -> LevelWork {
+        LevelWork {
+            spacing: self.lattice.pitch,
+            nodes: self.at.len(),
+            sweeps: self.sweeps,
+            joint_steps: self.joint_steps,
+            updates: self.updates,
         }
     }
 

@@ -6,6 +6,7 @@ mod descent;
 mod dissection;
 mod factor;
 mod film;
+mod follow;
 mod inertia;
 mod joint;
 mod leader;
@@ -24,6 +25,7 @@ mod visit;
 use crate::{
     body::Bodies,
     certificate::{Certificate, DrapeShape},
+    contact::Footing,
     fabric::Fabric,
     forces::Laws,
     lattice::{CutError, Edge, Lattice, Piece},
@@ -190,6 +192,8 @@ pub struct Settled {
     pub positions: Vec<Vec3>,
     /// Normal force of the bodies on each node [gf].
     pub contact: Vec<f64>,
+    /// Where friction holds on, for a drape that goes on from this one.
+    pub footing: Footing,
     /// Force that keeps each held node in its place [gf]; zero on free ones.
     pub holding: Vec<Vec3>,
     /// The proof of rest.
@@ -240,6 +244,9 @@ pub enum Unsolvable {
     /// Nothing holds the cloth: no hold, and no body under it.
     #[error("nothing carries the cloth: give a [[hold]], or a [[body]] below it")]
     Falls,
+    /// A drape cannot go on as another cloth, or over other parts.
+    #[error("the cloth, its holds or the parts of the bodies are not those of the drape before")]
+    Changed,
 }
 
 /// Cuts the cloth, takes hold of it and lets it fall, as [`settle`] does first, and solves nothing.
@@ -262,6 +269,26 @@ pub fn settle(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Settled, Unsolvable> {
     descent::descend(problem, settings, watch)
+}
+
+/// Goes on from a drape of the same cloth while bodies and holds move, and friction keeps what it
+/// remembers: quasi-static motion.
+///
+/// The bodies pass `through` the ways they stand in between and end as the problem has them, part by
+/// part the same; from one to the next nothing should move by more than a few millimetres, and never
+/// by more than a part's half thickness. Holds are carried from where they are to where the problem
+/// has them. The result has its own certificate.
+///
+/// # Errors
+/// [`Unsolvable`], as [`settle`]; [`Unsolvable::Changed`] where cloth or parts are others.
+pub fn go_on(
+    problem: &Problem,
+    through: &[Bodies],
+    last: &Settled,
+    settings: &Settings,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Settled, Unsolvable> {
+    follow::go_on(problem, through, last, settings, watch)
 }
 
 /// The shape [cm] that so many sweeps alone, without joint steps and coarse cuts, take the flat

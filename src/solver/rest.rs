@@ -39,11 +39,16 @@ const ACQUAINTED: usize = 3;
 /// free step asks for less than this part of a pitch.
 const LANDING_GRIP: f64 = 10.0;
 const LANDED: f64 = 0.2;
+/// A cloth that goes on from a drape is let go when a joint step asks for less than this [cm].
+const EASED: f64 = 1e-3;
+/// Until then friction is so many times as strong: as stiff as yarns are, so that no jolt of theirs
+/// tears off what sticks.
+const FIRM_GRIP: f64 = 1e5;
 /// Sweeps before each step of a landing: they settle what is near, it settles what is far.
 const SWEEPS: usize = 4;
 /// Holds are carried so far at a time, in pitches, with so many steps to follow them.
-const CARRIED: f64 = 0.1;
-const CARRYING: usize = 10;
+pub(super) const CARRIED: f64 = 0.1;
+pub(super) const CARRYING: usize = 10;
 /// A shape that is not stable is moved on by this part of a pitch.
 const KICK: f64 = 0.02;
 /// Bold joint steps go on as long as each goes farther than this part of a pitch.
@@ -61,6 +66,8 @@ pub(super) struct Run<'w> {
     pub(super) levels: usize,
     pub(super) film: Film,
     pub(super) stopped: bool,
+    /// Whether the coarsest level starts flat, far above its rest; else it goes on from a drape.
+    pub(super) lands: bool,
 }
 
 /// How a level stands after a round.
@@ -103,11 +110,12 @@ impl Run<'_> {
             patience: FIRST_TRY as f64,
             bold: false,
         };
-        let lands = number == 0;
+        let lands = number == 0 && self.lands;
         if lands {
             self.carry_holds(level, start, &standing);
             level.touches.rub(LANDING_GRIP * case.surface.friction);
         }
+        let mut gripped = !self.lands;
         for round in 0.. {
             if !self.goes_on(level, number, &standing) {
                 break;
@@ -123,6 +131,12 @@ impl Run<'_> {
             if lands && wants_less(LANDED * pitch) {
                 level.touches.rub(case.surface.friction);
             }
+            if gripped && step.is_some_and(|step| step.asked < EASED) {
+                gripped = false;
+                level.let_go(case.surface.friction);
+                standing.near = false;
+                continue;
+            }
             let worn = level.sweeps > COARSE_SWEEPS && !lands || round > COARSE_ROUNDS;
             if !last && (wants_less(COARSE_ENOUGH * pitch) || worn) {
                 break;
@@ -135,7 +149,7 @@ impl Run<'_> {
                 joint.finish(level, step.asked);
             }
             standing.go_to(&level.at, &step, level.touches.list().is_empty());
-            if self.is_settled(level, case, &mut standing, round) {
+            if !gripped && self.is_settled(level, case, &mut standing, round) {
                 let Some(way) = joint.way_out(level) else {
                     break;
                 };
@@ -284,7 +298,7 @@ struct Approach {
 }
 
 impl Standing {
-    fn new(level: &Level<'_>) -> Self {
+    pub(super) fn new(level: &Level<'_>) -> Self {
         Self {
             made: level.lattice.pitch,
             near: false,
@@ -370,6 +384,16 @@ impl Joint {
 }
 
 impl Level<'_> {
+    /// Strengthens friction [-] for a cloth that is not near rest; no force is changed by that.
+    pub(super) fn hold_firmly(&mut self, friction: f64) {
+        self.touches.grip(FIRM_GRIP * friction, true, &self.at);
+    }
+
+    /// Gives friction its own strength [-] again.
+    pub(super) fn let_go(&mut self, friction: f64) {
+        self.touches.grip(friction, false, &self.at);
+    }
+
     /// Moves the cloth along a way, the farthest node by so many pitches.
     fn kick(&mut self, way: &[Vec3], pitches: f64) {
         let part = pitches * self.lattice.pitch / longest(way);

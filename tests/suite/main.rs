@@ -7,6 +7,7 @@
 //! - `scenes`: every scene is certified and looks as it did, in figures and in a picture.
 //! - `figures`: what the paper says of its figures is so, and the README gives the numbers.
 //! - `maps`: heat maps of cloths whose values are known beforehand.
+//! - `follow`: drapes go on while bodies and holds move, and friction remembers.
 //! - `holds`: hands bear the weight of what they hold, and a rolled-up cloth is as long as it was.
 //! - `fuzz`: no bytes make the readers panic.
 //! - `starts`: no scene that they allow makes the solver panic.
@@ -23,6 +24,7 @@ mod cli;
 mod determinism;
 mod figures;
 mod fit;
+mod follow;
 mod friction;
 mod fuzz;
 mod holds;
