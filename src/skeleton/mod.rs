@@ -8,6 +8,7 @@
 
 mod joint;
 mod posture;
+mod rig;
 
 pub use joint::{Exceeded, Joint};
 pub use posture::Posture;
@@ -52,13 +53,16 @@ pub enum InvalidSkeleton {
     /// A bone's vector is not finite.
     #[error("bone {0:?} has no length that is a number")]
     NotFinite(String),
+    /// The least that an angle of a joint may be is above the greatest, or no number.
+    #[error("the limits of joint {0:?} are not in order")]
+    Limits(String),
 }
 
 impl Skeleton {
     /// Checks a list of bones, the first of which starts at `base` [cm] when the person stands.
     ///
     /// # Errors
-    /// [`InvalidSkeleton`] where bones are out of order, doubled or not finite.
+    /// [`InvalidSkeleton`] where bones are out of order, doubled or not finite, or limits are.
     pub fn new(base: Vec3, bones: Vec<Bone>) -> Result<Self, InvalidSkeleton> {
         if bones.is_empty() {
             return Err(InvalidSkeleton::Empty);
@@ -83,6 +87,10 @@ impl Skeleton {
                 .any(|part| !part.is_finite())
             {
                 return Err(InvalidSkeleton::NotFinite(bone.name.clone()));
+            }
+            // Not the other way round: a limit that is no number is in no order.
+            if !bone.joint.limits.iter().all(|[low, high]| low <= high) {
+                return Err(InvalidSkeleton::Limits(bone.joint.name.clone()));
             }
         }
         Ok(Self { base, bones })

@@ -17,6 +17,7 @@
 //! - `determinism`: the same bits on any number of threads.
 //! - `laws`, `laws_contact`, `laws_paper`, `laws_twist`: every law is the slope of its own energy,
 //!   and stays what it is wherever the cloth is and whichever way it is turned.
+//! - `skeleton`: one bone turns all beyond it, and no other.
 
 mod bad_files;
 mod bad_input;
@@ -45,3 +46,6 @@ mod specimen;
 mod starts;
 mod trial;
 mod verification;
+
+mod skeleton;
+mod woman;
