@@ -2,16 +2,19 @@
 //!
 //! A [`Skeleton`] is a list of bones, parents before children, as they lie when the person stands
 //! with the arms down. A [`Posture`] is where the first bone stands and how each joint is turned.
-//! [`Skeleton::stand`] has rapier's multibody find where every bone is then.
+//! [`Skeleton::stand`] has rapier's multibody find where every bone is then, and
+//! [`Skeleton::reach`] the posture in which a bone's end is at a point.
 //!
 //! Frame: z up; the person faces −y, x is to their left, the origin on the floor between the feet.
 
 mod joint;
 mod posture;
+mod reach;
 mod rig;
 
 pub use joint::{Exceeded, Joint};
 pub use posture::Posture;
+pub use reach::Reached;
 
 use crate::math::Vec3;
 

@@ -18,6 +18,7 @@
 //! - `laws`, `laws_contact`, `laws_paper`, `laws_twist`: every law is the slope of its own energy,
 //!   and stays what it is wherever the cloth is and whichever way it is turned.
 //! - `skeleton`: one bone turns all beyond it, and no other.
+//! - `reach`: hands and feet go to where they can, within limits, or say by how far they do not.
 
 mod bad_files;
 mod bad_input;
@@ -47,5 +48,6 @@ mod starts;
 mod trial;
 mod verification;
 
+mod reach;
 mod skeleton;
 mod woman;
