@@ -125,18 +125,28 @@ impl Document {
     }
 
     fn span_of(&self, steps: &[Step]) -> Option<Range<usize>> {
+        self.spans_of(steps).map(|[_, value]| value)
+    }
+
+    /// Where the last step's key stands, an item standing for its own, and its value; those of the
+    /// nearest table around it where it is absent.
+    fn spans_of(&self, steps: &[Step]) -> Option<[Range<usize>; 2]> {
         let table = DeTable::parse(&self.text).ok()?;
-        let (mut span, mut value) = (None, &DeValue::Table(table.into_inner()));
+        let (mut spans, mut value) = (None, &DeValue::Table(table.into_inner()));
         for step in steps {
             let found = match (value, step) {
-                (DeValue::Table(table), Step::Key(key)) => table.get(key.as_str()),
-                (DeValue::Array(list), Step::Item(item)) => list.get(*item),
+                (DeValue::Table(table), Step::Key(key)) => table
+                    .get_key_value(key.as_str())
+                    .map(|(key, value)| (key.span(), value)),
+                (DeValue::Array(list), Step::Item(item)) => {
+                    list.get(*item).map(|value| (value.span(), value))
+                }
                 _ => None,
             };
-            let Some(found) = found else { break };
-            (span, value) = (Some(found.span()), found.get_ref());
+            let Some((key, found)) = found else { break };
+            (spans, value) = (Some([key, found.span()]), found.get_ref());
         }
-        span
+        spans
     }
 
     pub(super) fn error_at(&self, span: Option<Range<usize>>, fault: Fault) -> SceneError {
@@ -192,6 +202,12 @@ impl<'d> At<'d> {
     pub(super) fn error(&self, fault: Fault) -> SceneError {
         self.document
             .error_at(self.document.span_of(&self.steps), fault)
+    }
+
+    /// An error at this key, not at its value.
+    pub(super) fn key_error(&self, fault: Fault) -> SceneError {
+        let spans = self.document.spans_of(&self.steps);
+        self.document.error_at(spans.map(|[key, _]| key), fault)
     }
 
     pub(super) fn not_allowed(&self, allowed: impl Into<String>) -> SceneError {

@@ -158,6 +158,20 @@ pub enum Fault {
         /// How deep they may nest.
         limit: usize,
     },
+    /// A point that a bone's end was not brought to.
+    #[error(
+        "{key} is {value}: {bone} ends {miss:.1} cm from it; allowed: a point within its reach"
+    )]
+    OutOfReach {
+        /// The key.
+        key: String,
+        /// As written.
+        value: String,
+        /// The bone.
+        bone: String,
+        /// How far its end is from the point in the posture that comes nearest [cm].
+        miss: f64,
+    },
     /// A record without readings.
     #[error("has no readings; allowed: a header that names the columns, then 4 lines or more")]
     NoReadings,

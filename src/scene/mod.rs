@@ -29,11 +29,13 @@ mod error;
 mod fabric;
 mod format;
 mod measured;
+mod posture;
 
 pub use body::InspectedMesh;
 pub use error::{Fault, Place, SceneError};
 pub use fabric::{fabric, fabric_text};
 pub use measured::measured;
+pub use posture::posture;
 
 use crate::{
     body::Bodies,

@@ -19,6 +19,7 @@
 //!   and stays what it is wherever the cloth is and whichever way it is turned.
 //! - `skeleton`: one bone turns all beyond it, and no other.
 //! - `reach`: hands and feet go to where they can, within limits, or say by how far they do not.
+//! - `postures`: each slip in a posture file gets its message; those that ship are within limits.
 
 mod bad_files;
 mod bad_input;
@@ -48,6 +49,7 @@ mod starts;
 mod trial;
 mod verification;
 
+mod postures;
 mod reach;
 mod skeleton;
 mod woman;
