@@ -79,6 +79,8 @@ pub mod contact;
 // Who wears it.
 pub mod skeleton;
 
+pub mod motion;
+
 // Rest, and the proof of it.
 pub mod certificate;
 pub mod solver;
