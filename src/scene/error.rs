@@ -4,6 +4,7 @@ use crate::{
     body::{MeshError, PartError},
     fabric::{InvalidCurve, InvalidFabric, fit::Unfit},
     lattice::OutlineError,
+    motion::{BvhError, InvalidMotion, RetargetError},
     solver::Unsolvable,
 };
 use std::{fmt, path::PathBuf};
@@ -171,6 +172,31 @@ pub enum Fault {
         bone: String,
         /// How far its end is from the point in the posture that comes nearest [cm].
         miss: f64,
+    },
+    /// Keys that are no motion.
+    #[error("{key}: {error}")]
+    Motion {
+        /// The key.
+        key: String,
+        /// What is wrong with them.
+        error: InvalidMotion,
+    },
+    /// A motion capture that is none.
+    #[error("{0}")]
+    Capture(BvhError),
+    /// A motion capture that does not fit the skeleton.
+    #[error("{0}")]
+    Retarget(RetargetError),
+    /// A motion capture whose joints have other names than those that are known.
+    #[error(
+        "no table of joint names fits joints {joints}, …; allowed: those of {known}, or a motion \
+         file with capture = and names = \"mine.toml\""
+    )]
+    NoNames {
+        /// Its first joints.
+        joints: String,
+        /// The tables that ship.
+        known: String,
     },
     /// A record without readings.
     #[error("has no readings; allowed: a header that names the columns, then 4 lines or more")]

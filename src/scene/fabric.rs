@@ -95,12 +95,21 @@ impl Source {
 }
 
 fn allowed_names(wrong: &str) -> String {
-    let names = SWATCHES.map(|(name, _)| name);
-    let guess = nearest(wrong, names.into_iter())
+    allowed_names_of(wrong, SWATCHES.iter().map(|(name, _)| *name), "fabrics")
+}
+
+/// The names that ship, and what else may stand in their place.
+pub(super) fn allowed_names_of<'n>(
+    wrong: &str,
+    names: impl Iterator<Item = &'n str>,
+    folder: &str,
+) -> String {
+    let names: Vec<&str> = names.collect();
+    let guess = nearest(wrong, names.iter().copied())
         .map(|guess| format!("; did you mean {guess:?}?"))
         .unwrap_or_default();
     let names = names.join(", ");
-    format!("{names}, the name of a file in fabrics/, or a path to a .toml{guess}")
+    format!("{names}, the name of a file in {folder}/, or a path to a .toml{guess}")
 }
 
 fn read(document: &Document) -> Result<Fabric, SceneError> {
