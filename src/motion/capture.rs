@@ -66,6 +66,11 @@ impl<'b> Actor<'b> {
         Ok(actor)
     }
 
+    /// How many frames there are.
+    pub(super) fn count(&self) -> usize {
+        self.source.frames.len()
+    }
+
     /// Frames to go through.
     pub(super) fn frames(&self) -> impl Iterator<Item = Stance> {
         self.source.frames.iter().map(|frame| self.at(frame))

@@ -7,6 +7,9 @@
 //!    joint. About itself each is twisted as the actor's is, counted from the shortest turn that
 //!    takes our standing limb, its parent's turn done, to the actor's as built: hanging arms and
 //!    arms held out are one pose, with thumbs ahead.
+//!    Upper arms are then turned about themselves by one angle for the whole capture, so that its
+//!    elbows bend ahead: where a capture has its arms' zero is its own affair, which way elbows bend
+//!    is not. Forearms and hands stay as they are.
 //! 3. A foot is turned against its shank as the actor's is against his.
 //! 4. A bone without a source, or whose joint does not turn, goes with its parent.
 //!
@@ -64,6 +67,15 @@ pub enum RetargetError {
     Motion(#[from] InvalidMotion),
 }
 
+/// Elbows that bend less, sine squared, in the mean over all frames, say nothing of their hinge: 6°.
+const LEAST_BEND: f64 = 0.01;
+
+/// An upper arm and its forearm, on each side.
+const ARMS: [[&str; 2]; 2] = [
+    ["right_upper_arm", "right_forearm"],
+    ["left_upper_arm", "left_forearm"],
+];
+
 /// The capture as a motion of our bones, a key for each frame, from 0 s and the standing place on.
 ///
 /// Joint limits are not kept: [`Motion::beyond_limits`] tells where they are exceeded.
@@ -76,7 +88,10 @@ pub fn retarget(
     skeleton: &Skeleton,
 ) -> Result<Motion, RetargetError> {
     let actor = Actor::find(source, mapping)?;
-    let follower = Follower::new(&actor, source, mapping, skeleton)?;
+    let mut follower = Follower::new(&actor, source, mapping, skeleton)?;
+    for [upper, fore] in ARMS {
+        follower.bend_ahead(&actor, skeleton, [upper, fore]);
+    }
     let scale = leg(skeleton)? / follower.actor_leg(&actor.unturned())?;
     let ankles = ["right_shank", "left_shank"].map(|bone| skeleton.bone(bone));
     let ankle = |pose: &[Pose]| {
@@ -223,6 +238,44 @@ impl Follower {
         }
     }
 
+    /// Twists an upper arm as built, so that on the whole its elbow bends about the hinge that it has:
+    /// the mean over all frames, each with the weight of its bend's sine squared.
+    fn bend_ahead(&mut self, actor: &Actor<'_>, skeleton: &Skeleton, arm: [&str; 2]) {
+        let [Some(upper), Some(fore)] = arm.map(|bone| skeleton.bone(bone)) else {
+            return;
+        };
+        let track = |bone: usize| self.bones.get(bone).and_then(Option::as_ref);
+        let (Some(above), Some(below)) = (track(upper), track(fore)) else {
+            return;
+        };
+        let Some(hinge) = skeleton.bones().get(fore).map(|bone| bone.joint.axes[0]) else {
+            return;
+        };
+        let along = above.vector.normalize();
+        let across = along.cross(&hinge);
+        let (mut sine, mut cosine) = (0.0, 0.0);
+        for stance in actor.frames() {
+            let (Some(arm), Some(forearm)) = (above.along(&stance), below.along(&stance)) else {
+                return;
+            };
+            let size = arm.norm() * forearm.norm();
+            if size > 0.0 {
+                let bend = above.turn(&stance).inverse() * arm.cross(&forearm) / size;
+                let weight = bend.norm();
+                sine += weight * bend.dot(&across);
+                cosine += weight * bend.dot(&hinge);
+            }
+        }
+        let count = actor.count() as f64;
+        if (sine * sine + cosine * cosine).sqrt() < LEAST_BEND * count {
+            return;
+        }
+        let twist = turn(&(along * libm::atan2(sine, cosine)));
+        if let Some(Some(track)) = self.bones.get_mut(upper) {
+            track.built *= twist;
+        }
+    }
+
     /// Our posture in a stance; the root's place is the actor's, in the file's unit.
     fn posture(&self, stance: &Stance, skeleton: &Skeleton) -> Posture {
         let mut worlds: Vec<Rotation> = Vec::with_capacity(self.bones.len());
@@ -246,6 +299,12 @@ impl Follower {
 }
 
 impl Track {
+    /// From its start to its end, for a bone that points where the actor's does.
+    fn along(&self, stance: &Stance) -> Option<Vec3> {
+        let tip = self.tip?;
+        Some(tip.place(stance) - Tip::Joint(self.joint).place(stance))
+    }
+
     /// How our bone is turned in space.
     fn turn(&self, stance: &Stance) -> Rotation {
         let turned = stance.turns.get(self.twist).copied().unwrap_or_default() * self.built;

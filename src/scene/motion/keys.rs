@@ -88,6 +88,7 @@ fn posture(
     for (name, angles) in &table.joint {
         let bone = skeleton.joint(name).filter(|bone| *bone > 0);
         let found = bone.and_then(|bone| Some((bone, skeleton.bones().get(bone)?)));
+        let found = found.filter(|(_, bone)| bone.joint.turns());
         let Some((bone, found)) = found else {
             let bones = skeleton.bones().iter().skip(1);
             let turning = bones.filter(|bone| bone.joint.turns());
