@@ -13,6 +13,7 @@
 //! - `starts`: no scene that they allow makes the solver panic.
 //! - `verification`, `friction`: drapes that mathematics knows, and where friction gives way.
 //! - `lab`: each instrument reads what closed forms, rod chains and the elastica say, or refuses.
+//! - `motions`: captures and keyframes move the bones as they should, and bad ones get their messages.
 //! - `honesty`: what the certificate says is left to go is what is left.
 //! - `determinism`: the same bits on any number of threads.
 //! - `laws`, `laws_contact`, `laws_paper`, `laws_twist`: every law is the slope of its own energy,
@@ -39,6 +40,7 @@ mod laws_paper;
 mod laws_twist;
 mod layers;
 mod maps;
+mod motions;
 mod open_bodies;
 mod picture;
 mod preview;
