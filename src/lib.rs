@@ -80,6 +80,7 @@ pub mod contact;
 pub mod skeleton;
 
 pub mod motion;
+pub mod robot;
 
 // Rest, and the proof of it.
 pub mod certificate;
