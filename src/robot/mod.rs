@@ -1,11 +1,20 @@
 //! The robot of the paper (B): a person as a tailor measures one, as bones and as flesh.
 
 mod bones;
+mod bulge;
+mod extremities;
+mod figure;
 mod levels;
+mod limbs;
 mod measurements;
-
+mod muscles;
+mod profile;
 #[cfg(test)]
 pub(crate) mod sample;
+mod tape;
+mod trunk;
 
 pub use bones::InvalidPerson;
+pub use figure::Robot;
 pub use measurements::{Girth, Girths, InvalidMeasurement, Lengths, Measurements};
+pub use muscles::{Ball, Muscle};
