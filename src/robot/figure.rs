@@ -232,22 +232,3 @@ impl Builder<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::robot::sample::everyone;
-
-    #[test]
-    fn the_tape_reads_what_was_asked() {
-        for person in everyone() {
-            let robot = Robot::new(&person).unwrap();
-            println!("{}: {} balls", person.name, robot.muscles().len());
-            for girth in Girth::ALL {
-                let (asked, built) = (person.girths.of(girth), robot.girth(girth));
-                println!("  {girth} {built:.2} cm, asked {asked} cm");
-                assert!((built - asked).abs() < 1.0, "{girth}");
-            }
-        }
-    }
-}

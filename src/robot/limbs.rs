@@ -104,13 +104,12 @@ impl Builder<'_> {
         // Not wider than the hips, of which the thighs are part.
         let top = thigh.min(half_hip - hip_joint).max(0.8 * thigh);
         let at = self.thigh_at();
+        let (_, vector) = self.line(self.bone("left_thigh"));
+        let reach = hip_joint + at * vector.x + thigh - half_hip;
+        let inward = reach.clamp(0.0, 0.1 * thigh);
         let upper = Limbs {
             radius: Profile::new(&[(0.0, top), (at, thigh), (1.0, knee)]),
-            inward: Profile::new(&[
-                (0.0, 0.0),
-                (at, (hip_joint + thigh - half_hip).clamp(0.0, 0.1 * thigh)),
-                (1.0, 0.0),
-            ]),
+            inward: Profile::new(&[(0.0, 0.0), (at, inward), (1.0, 0.0)]),
         };
         let upper = self.strung(Flesh::Thigh, "thigh", side, &upper, limb);
         let lower = straight(&[

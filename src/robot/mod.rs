@@ -3,6 +3,7 @@
 mod bones;
 mod bulge;
 mod extremities;
+mod field;
 mod figure;
 mod levels;
 mod limbs;
@@ -11,7 +12,10 @@ mod muscles;
 mod profile;
 #[cfg(test)]
 pub(crate) mod sample;
+mod skin;
 mod tape;
+#[cfg(test)]
+mod tests;
 mod trunk;
 
 pub use bones::InvalidPerson;

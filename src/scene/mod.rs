@@ -31,6 +31,7 @@ mod format;
 mod measured;
 mod motion;
 mod posture;
+mod person;
 
 pub use body::InspectedMesh;
 pub use error::{Fault, Place, SceneError};
@@ -38,6 +39,7 @@ pub use fabric::{fabric, fabric_text};
 pub use measured::measured;
 pub use motion::{mapping, mapping_for, motion};
 pub use posture::posture;
+pub use person::person;
 
 use crate::{
     body::Bodies,

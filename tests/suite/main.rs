@@ -21,6 +21,7 @@
 //! - `skeleton`: one bone turns all beyond it, and no other.
 //! - `reach`: hands and feet go to where they can, within limits, or say by how far they do not.
 //! - `postures`: each slip in a posture file gets its message; those that ship are within limits.
+//! - `persons`: the people that ship have bodies as measured, and bad files of people their messages.
 
 mod bad_files;
 mod bad_input;
@@ -42,6 +43,7 @@ mod layers;
 mod maps;
 mod motions;
 mod open_bodies;
+mod persons;
 mod picture;
 mod preview;
 mod scenes;
