@@ -152,8 +152,18 @@ impl Builder<'_> {
             before = row;
         }
         if let (Some(ankle), [heel, next, arch, rise, ..]) = (ankle, instep.as_slice()) {
-            self.web(limb, &[*heel, *next, *arch, *rise], &[ankle; 4]);
+            let below = [*heel, *next, *arch, *rise];
+            let between = below.map(|ball| self.between(bone, ball, ankle));
+            self.web(limb, &below, &between);
+            self.web(limb, &between, &[ankle; 4]);
         }
         self.group(Flesh::Foot, Some(side), since);
+    }
+
+    /// Lays a ball on a bone half way between two others.
+    fn between(&mut self, bone: usize, one: usize, other: usize) -> usize {
+        let [one, other] = [one, other].map(|ball| self.laid(ball));
+        let centre = 0.5 * (one.centre + other.centre);
+        self.ball(bone, centre, 0.5 * (one.radius + other.radius))
     }
 }

@@ -54,21 +54,27 @@ impl Robot {
         let skeleton = person.skeleton()?;
         let levels = Levels::of(person)?;
         let mut widths = Widths([1.0; 12]);
+        let mut robot = Self::built(person, &levels, &skeleton, &widths);
         for _ in 0..ROUNDS {
-            let robot = Self::built(person, &levels, &skeleton, &widths);
+            let balls = robot.standing();
             let mut worst: f64 = 0.0;
-            for (girth, width) in Girth::ALL.into_iter().zip(&mut widths.0) {
-                let (asked, built) = (person.girths.of(girth), robot.girth(girth));
+            for (tape, width) in robot.tapes.iter().zip(&mut widths.0) {
+                let (asked, built) = (person.girths.of(tape.girth), tape.around(&balls));
                 worst = worst.max((built - asked).abs());
                 *width = (*width * asked / built.max(1e-3)).clamp(0.3, 2.0);
             }
             if worst < NEAR {
                 return Ok(robot);
             }
+            robot = Self::built(person, &levels, &skeleton, &widths);
         }
-        let robot = Self::built(person, &levels, &skeleton, &widths);
+        robot.as_asked()
+    }
+
+    /// The body itself, when its girths are not far from those asked for.
+    fn as_asked(self) -> Result<Self, InvalidPerson> {
         for girth in Girth::ALL {
-            let (asked, built) = (person.girths.of(girth), robot.girth(girth));
+            let (asked, built) = (self.person.girths.of(girth), self.girth(girth));
             if (built - asked).abs() > FAR {
                 return Err(InvalidPerson::Girth {
                     girth,
@@ -77,7 +83,7 @@ impl Robot {
                 });
             }
         }
-        Ok(robot)
+        Ok(self)
     }
 
     fn built(person: &Measurements, levels: &Levels, skeleton: &Skeleton, widths: &Widths) -> Self {
@@ -117,11 +123,7 @@ impl Robot {
     #[must_use]
     pub fn girth(&self, girth: Girth) -> f64 {
         let found = self.tapes.iter().find(|tape| tape.girth == girth);
-        found.map_or(0.0, |tape| {
-            let balls = self.standing();
-            let measured = tape.muscles.iter().filter_map(|muscle| balls.get(*muscle));
-            Section::of(measured, &tape.at, &tape.across).girth()
-        })
+        found.map_or(0.0, |tape| tape.around(&self.standing()))
     }
 
     /// The muscles in place, in the order of [`muscles`](Self::muscles), when the joints are turned
@@ -191,6 +193,14 @@ impl Robot {
     /// The muscles of the standing body.
     pub(super) fn standing(&self) -> Vec<Ball> {
         self.balls(&Posture::standing(&self.skeleton), &self.standing_frames())
+    }
+}
+
+impl Tape {
+    /// What it reads around some of these balls [cm].
+    fn around(&self, balls: &[Ball]) -> f64 {
+        let measured = self.muscles.iter().filter_map(|muscle| balls.get(*muscle));
+        Section::of(measured, &self.at, &self.across).girth()
     }
 }
 

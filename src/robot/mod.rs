@@ -1,4 +1,24 @@
 //! The robot of the paper (B): a person as a tailor measures one, as bones and as flesh.
+//!
+//! [`Measurements`] give a [`Skeleton`](crate::skeleton::Skeleton); balls strung on its bones, as
+//! dumplings on a skewer, are the muscles. A tape around them reads the girths that were asked for,
+//! they go where the bones go, and bulge where a limb bends. Cloth meets the balls
+//! ([`Robot::parts`]) or the smooth skin over them ([`Robot::skin`]).
+//!
+//! What no one measured is made in proportion, and plainly: left and right are alike, hands are
+//! mittens, faces have no features.
+//!
+//! ```
+//! use soen::{robot::{Girth, Robot}, skeleton::Posture};
+//!
+//! let woman = soen::scene::person("bodies/woman-158.toml".as_ref())?;
+//! let robot = Robot::new(&woman)?;
+//! assert!((robot.girth(Girth::Waist) - 64.0).abs() < 0.1);
+//! let standing = Posture::standing(robot.skeleton());
+//! let skin = robot.skin(&standing, &[])?;
+//! assert!(skin.inspection().closed);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod bones;
 mod bulge;

@@ -164,7 +164,12 @@ impl<'a> Builder<'a> {
 
     /// A girth as asked, times how much wider its section is made [cm].
     pub(super) fn girth(&self, girth: Girth) -> f64 {
-        self.person.girths.of(girth) * self.widths.of(girth)
+        self.person.girths.of(girth) * self.width(girth)
+    }
+
+    /// How much wider than asked a section is made.
+    pub(super) fn width(&self, girth: Girth) -> f64 {
+        self.widths.of(girth)
     }
 
     /// Lays a ball on a bone; its number.
@@ -176,6 +181,19 @@ impl<'a> Builder<'a> {
             radius,
         });
         self.made.all.len() - 1
+    }
+
+    /// A ball that was laid, in the standing frame.
+    pub(super) fn laid(&self, ball: usize) -> Ball {
+        let muscle = self.made.all.get(ball).copied();
+        let (at, radius) = muscle.map_or((Vec3::zeros(), 0.0), |muscle| (muscle.at, muscle.radius));
+        let start = muscle
+            .and_then(|muscle| self.starts.get(muscle.bone))
+            .copied();
+        Ball {
+            centre: start.unwrap_or_default() + at,
+            radius,
+        }
     }
 
     /// Marks what was laid since as one group.

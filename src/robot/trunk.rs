@@ -23,7 +23,7 @@ const BUST: f64 = 0.76;
 /// 0.72 of the stature of a woman of 158 cm, 0.498, 0.62, 0.69 and 0.725 of a man of 170.
 const HIP_LEVEL: f64 = 0.11;
 const WAIST_LEVEL: f64 = 0.47;
-const UNDER_BUST_LEVEL: f64 = 0.66;
+const UNDER_BUST_LEVEL: f64 = 0.65;
 const BUST_LEVEL: f64 = 0.76;
 /// Where the arms leave the trunk, and the last row, below the collar bones.
 const ARMPIT_LEVEL: f64 = 0.88;
@@ -38,8 +38,8 @@ const ABREAST: [f64; 4] = [-1.0, -1.0 / 3.0, 1.0 / 3.0, 1.0];
 /// Balls of a breast: how far above the bust (between crotch and tips of the shoulders), how much of
 /// what it stands out, and radius as a share of the stature.
 const BREAST: [[f64; 3]; 3] = [
-    [-0.015, 1.0, 0.037],
-    [0.035, 0.75, 0.036],
+    [0.0, 1.0, 0.0345],
+    [0.04, 0.75, 0.0345],
     [0.09, 0.25, 0.034],
 ];
 
@@ -83,7 +83,7 @@ impl Builder<'_> {
         let hip = (0.5 * self.person.hip_width, stadium_depth(self));
         let waist = stadium(self.girth(Girth::Waist), WAIST);
         let under_bust = stadium(self.girth(Girth::UnderBust), UNDER_BUST);
-        let bust = stadium(self.girth(Girth::Bust), BUST);
+        let bust = stadium(self.chest(), BUST);
         let armpit = ((half_shoulders - 0.02 * stature).min(bust.0), 0.74 * bust.1);
         let top = (0.62 * half_shoulders, 0.55 * bust.1);
         let rows = [
@@ -179,11 +179,29 @@ impl Builder<'_> {
         self.bone(spine.unwrap_or("pelvis"))
     }
 
+    /// Girth of the chest at the level of the bust, breasts left out [cm].
+    ///
+    /// Up to 4 cm that the bust has more than the girth below it are the chest's own, of the rest
+    /// a part; a chest that took all would bulge over the girth below it.
+    fn chest(&self) -> f64 {
+        let girths = &self.person.girths;
+        let breasts = 0.85 * (girths.bust - girths.under_bust - 4.0).max(0.0);
+        (girths.bust - breasts) * self.width(Girth::Bust).min(1.0)
+    }
+
+    /// How far a breast stands out of the chest [cm]: half of what it adds to the girth, and more or
+    /// less until the tape reads the bust.
+    fn standing_out(&self) -> f64 {
+        let girths = &self.person.girths;
+        let breasts = 0.85 * (girths.bust - girths.under_bust - 4.0).max(0.0);
+        let more = 0.35 * girths.bust * (self.width(Girth::Bust) - 1.0);
+        (0.5 * breasts + more).max(0.0)
+    }
+
     /// Balls for a breast, which stand out the more the bust is larger than the girth below it.
     pub(super) fn breast(&mut self, side: Side) {
         let since = self.count();
-        let girths = &self.person.girths;
-        let out = (0.26 * (girths.bust - girths.under_bust) - 1.0).max(0.0);
+        let out = self.standing_out();
         let sections = self.sections();
         let (bone, stature) = (self.bone("thorax"), self.levels.stature);
         let x = 0.046 * stature;
