@@ -82,6 +82,13 @@ impl Builder<'_> {
             })
             .collect();
         self.string(limb, &balls);
+        // On the ribs, hidden while the arm hangs; from it skin goes up with a raised arm.
+        let inward = side.vector(Vec3::new(-0.028, 0.0, -0.04)) * stature;
+        let ribs = self.bone("thorax");
+        let armpit = self.ball(ribs, start + vector + inward, 0.03 * stature);
+        if let [.., before, last] = balls.as_slice() {
+            self.web(limb, &[*before, *last], &[armpit; 2]);
+        }
         self.group(Flesh::Shoulder, Some(side), since);
         balls
     }
