@@ -30,16 +30,16 @@ mod fabric;
 mod format;
 mod measured;
 mod motion;
-mod posture;
 mod person;
+mod posture;
 
 pub use body::InspectedMesh;
 pub use error::{Fault, Place, SceneError};
 pub use fabric::{fabric, fabric_text};
 pub use measured::measured;
 pub use motion::{mapping, mapping_for, motion};
-pub use posture::posture;
 pub use person::person;
+pub use posture::posture;
 
 use crate::{
     body::Bodies,
