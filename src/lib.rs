@@ -86,6 +86,9 @@ pub mod robot;
 pub mod certificate;
 pub mod solver;
 
+// Cloth that is worn while its wearer moves.
+pub mod play;
+
 // What a textile laboratory does with it.
 pub mod lab;
 

@@ -129,6 +129,12 @@ impl Part {
         &self.name
     }
 
+    /// The same part under another name.
+    #[must_use]
+    pub fn named(self, name: String) -> Self {
+        Self { name, ..self }
+    }
+
     /// Whether it has an inside.
     #[must_use]
     pub fn nature(&self) -> Nature {

@@ -4,7 +4,7 @@ use super::{
     touch::Touch,
     touches::{Places, Touches},
 };
-use crate::{body::Bodies, math::Vec3};
+use crate::{body::Bodies, lattice::Lattice, math::Vec3};
 
 /// The touches in which friction acts, and the bodies as they were then.
 #[derive(Clone, Debug, Default)]
@@ -19,6 +19,14 @@ impl Footing {
     #[must_use]
     pub fn bodies(&self) -> &Bodies {
         &self.bodies
+    }
+
+    /// Whether it is that of a cloth cut like this.
+    #[must_use]
+    pub fn fits(&self, lattice: &Lattice) -> bool {
+        let nodes = lattice.coordinates.len();
+        let known = |touch: &Touch| touch.site.nodes.iter().all(|node| (*node as usize) < nodes);
+        self.places.len() == lattice.cells.len() && self.touches.iter().all(known)
     }
 
     /// The footing after the bodies, part by part the same, have moved: what friction holds on to

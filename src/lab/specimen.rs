@@ -101,7 +101,7 @@ impl Rest {
         let frames = 0;
         let settings = Settings { tolerance, frames };
         judged(rounds, watch, |watch| {
-            let settled = go_on(&problem, &[], &self.settled, &settings, watch)?;
+            let settled = go_on(&problem, &[], self.settled.state(), &settings, watch)?;
             Ok(Self { problem, settled })
         })
     }

@@ -1,6 +1,7 @@
 //! Lowers bodies: shapes to parts, body files to the parts they list.
 
 use super::{
+    actor,
     document::{Allowed, At, Document, mesh_bytes},
     error::{Fault, SceneError},
     format::{BodyFile, BodyTable, HullTable, Numbers, Table, UnitWord, UpWord},
@@ -8,6 +9,7 @@ use super::{
 use crate::{
     body::{Format, Inspection, Mesh, Part, Shape, Unit, Up},
     math::{Pose, Vec3},
+    play::{Cast, Member},
 };
 use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use std::path::{Path, PathBuf};
@@ -34,7 +36,7 @@ pub struct InspectedMesh {
 /// What the bodies of a scene were lowered to.
 #[derive(Debug, Default)]
 pub(super) struct Solids {
-    pub(super) parts: Vec<Part>,
+    pub(super) cast: Cast,
     pub(super) meshes: Vec<InspectedMesh>,
 }
 
@@ -79,12 +81,18 @@ impl Solids {
             ("cone", body.cone.is_some()),
             ("convex_hull", body.convex_hull.is_some()),
             ("mesh", body.mesh.is_some()),
+            ("robot", body.robot.is_some()),
             ("file", body.file.is_some()),
         ])?;
         let frame = frame.turned(pose(at, body)?);
         let at = at.key(which);
         if let Some(file) = &body.file {
             return self.add_file(&at, file, &frame);
+        }
+        if let Some(robot) = &body.robot {
+            let actor = actor::actor(&at, robot, frame.name, frame.pose)?;
+            self.cast.members.push(Member::Actor(Box::new(actor)));
+            return Ok(());
         }
         let shape = match &body.mesh {
             Some(_) => Shape::Mesh(self.mesh(&at, body, &frame.name)?),
@@ -94,7 +102,7 @@ impl Solids {
             let key = at.name();
             at.error(Fault::Part { key, error })
         })?;
-        self.parts.push(part);
+        self.cast.members.push(Member::Still(part));
         Ok(())
     }
 

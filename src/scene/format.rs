@@ -131,6 +131,8 @@ pub(super) struct SceneFile {
     pub(super) contact: Table<ContactTable>,
     #[serde(default)]
     pub(super) solve: Table<SolveTable>,
+    /// What `soen animate` makes of the motions of robots.
+    pub(super) animation: Option<Table<AnimationTable>>,
 }
 
 /// The piece of cloth: exactly one of size_cm, disc_radius_cm, outline_cm.
@@ -184,7 +186,7 @@ pub(super) enum EdgeWord {
     YMax,
 }
 
-/// A solid thing: exactly one of ball, capsule, cuboid, cylinder, cone, convex_hull, mesh, file.
+/// A solid thing: exactly one of ball, capsule, cuboid, cylinder, cone, convex_hull, mesh, robot, file.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BodyTable {
@@ -197,6 +199,7 @@ pub(super) struct BodyTable {
     pub(super) cone: Option<Table<RoundTable>>,
     pub(super) convex_hull: Option<Table<HullTable>>,
     pub(super) mesh: Option<Table<MeshTable>>,
+    pub(super) robot: Option<Table<RobotTable>>,
     /// A body file, whose parts stand in this body's frame.
     pub(super) file: Option<PathBuf>,
     /// Where its own origin is [cm]; the origin where absent.
@@ -262,6 +265,30 @@ pub(super) struct MeshTable {
     pub(super) scale: Option<f64>,
     #[serde(default)]
     pub(super) up: UpWord,
+}
+
+/// A person as bones and balls, who may move.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RobotTable {
+    /// A name in bodies/, one of woman-158, man-170, child-120, or a path to a .toml.
+    pub(super) person: String,
+    /// How they stand when the cloth is laid on: a name in bodies/poses/ or a path to a .toml;
+    /// upright with the arms down where absent.
+    pub(super) pose: Option<String>,
+    /// What they do then: a name in bodies/motions/, one of walk, run, jump, or a path to a .toml or
+    /// a .bvh.
+    pub(super) motion: Option<String>,
+}
+
+/// The moments of a motion that are wanted.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AnimationTable {
+    /// How many.
+    pub(super) frames: u32,
+    /// How many in a second; 24 where absent.
+    pub(super) frames_per_s: Option<f64>,
 }
 
 /// The file's unit of length.

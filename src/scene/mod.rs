@@ -21,6 +21,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod actor;
 mod body;
 mod build;
 mod complaint;
@@ -42,7 +43,7 @@ pub use person::person;
 pub use posture::posture;
 
 use crate::{
-    body::Bodies,
+    play::{Cast, ENTRANCE, Frames},
     solver::{Problem, Settings, Unsolvable},
 };
 use body::Solids;
@@ -65,6 +66,10 @@ pub struct Scene {
     pub settings: Settings,
     /// When to stop, by the clock [s].
     pub max_seconds: f64,
+    /// Who and what the cloth may meet; the problem's bodies are these as the cloth is laid on.
+    pub cast: Cast,
+    /// Which moments of a motion are wanted, if any.
+    pub frames: Option<Frames>,
     /// What was found in each mesh file, in the order of the bodies.
     pub meshes: Vec<InspectedMesh>,
     document: Document,
@@ -84,11 +89,19 @@ pub fn read(path: &Path) -> Result<Scene, SceneError> {
     solids.add_all(&top.key("body"), &file.body)?;
     let (friction, thickness) = build::contact(&top.key("contact"), &file.contact, &material)?;
     let stop = build::stop(&solve, &file.solve)?;
+    let at = top.key("animation");
+    let frames = file.animation.as_ref();
+    let frames = frames.map(|table| actor::frames(&at, table)).transpose()?;
+    let bodies = solids.cast.bodies(-ENTRANCE).map_err(|error| {
+        let at = top.key("body");
+        let key = at.name();
+        at.error(Fault::Part { key, error })
+    })?;
     let problem = Problem {
         piece: build::piece(&cloth, &file.cloth)?,
         placement: build::placement(&cloth, &file.cloth)?,
         holds: build::holds(&top.key("hold"), &file.hold)?,
-        bodies: Bodies::new(solids.parts),
+        bodies,
         friction,
         thickness,
         laws: build::laws(&solve, &file.solve)?,
@@ -109,6 +122,8 @@ pub fn read(path: &Path) -> Result<Scene, SceneError> {
             frames: 0,
         },
         max_seconds: stop.max_seconds,
+        cast: solids.cast,
+        frames,
         meshes: solids.meshes,
         document,
     })

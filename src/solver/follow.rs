@@ -30,20 +30,16 @@ use crate::{
 pub(super) fn go_on(
     problem: &Problem,
     through: &[Bodies],
-    last: &Settled,
+    before: (&[Vec3], &Footing),
     settings: &Settings,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Settled, Unsolvable> {
     let lattice = problem.piece.cut(problem.piece.pitch)?;
     let start = Start::new(problem, &lattice)?;
-    same_cloth(problem, through, last, &lattice)?;
+    same_cloth(problem, through, before, &lattice)?;
     let surface = surface(problem);
     let case = case_of(problem, &lattice, &start, surface);
-    let mut level = Level::new(
-        &case,
-        Touches::new(&lattice, surface),
-        last.positions.clone(),
-    );
+    let mut level = Level::new(&case, Touches::new(&lattice, surface), before.0.to_vec());
     let mut run = Run {
         watch,
         settings,
@@ -53,7 +49,7 @@ pub(super) fn go_on(
         lands: false,
     };
     let stations: Vec<&Bodies> = through.iter().chain([&problem.bodies]).collect();
-    run.follow(&mut level, &start, &surface, &stations, &last.footing);
+    run.follow(&mut level, &start, &surface, &stations, before.1);
     let remaining = run.rest(&mut level, &case, &start, 0);
     let work = vec![level.work()];
     let settled = finish(&case, level, work, settings, remaining);
@@ -67,12 +63,13 @@ pub(super) fn go_on(
 fn same_cloth(
     problem: &Problem,
     through: &[Bodies],
-    last: &Settled,
+    (positions, footing): (&[Vec3], &Footing),
     lattice: &Lattice,
 ) -> Result<(), Unsolvable> {
-    let parts = last.footing.bodies().parts().len();
+    let parts = footing.bodies().parts().len();
     let mut bodies = through.iter().chain([&problem.bodies]);
-    let same = lattice.coordinates == last.lattice.coordinates
+    let same = positions.len() == lattice.coordinates.len()
+        && footing.fits(lattice)
         && bodies.all(|bodies| bodies.parts().len() == parts);
     if same {
         Ok(())

@@ -210,6 +210,14 @@ pub struct Settled {
     pub frames: Vec<Vec<Vec3>>,
 }
 
+impl Settled {
+    /// What a drape that goes on from this one must know: positions [cm] and footing.
+    #[must_use]
+    pub fn state(&self) -> (&[Vec3], &Footing) {
+        (&self.positions, &self.footing)
+    }
+}
+
 /// A problem that has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -271,8 +279,8 @@ pub fn settle(
     descent::descend(problem, settings, watch)
 }
 
-/// Goes on from a drape of the same cloth while bodies and holds move, and friction keeps what it
-/// remembers: quasi-static motion.
+/// Goes on from a drape of the same cloth, by its positions [cm] and its footing, while bodies and
+/// holds move and friction keeps what it remembers: quasi-static motion.
 ///
 /// The bodies pass `through` the ways they stand in between and end as the problem has them, part by
 /// part the same; from one to the next nothing should move by more than a few millimetres, and never
@@ -284,11 +292,11 @@ pub fn settle(
 pub fn go_on(
     problem: &Problem,
     through: &[Bodies],
-    last: &Settled,
+    before: (&[Vec3], &Footing),
     settings: &Settings,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Settled, Unsolvable> {
-    follow::go_on(problem, through, last, settings, watch)
+    follow::go_on(problem, through, before, settings, watch)
 }
 
 /// The shape [cm] that so many sweeps alone, without joint steps and coarse cuts, take the flat

@@ -24,7 +24,7 @@ fn follow(problem: &Problem, through: &[Bodies], last: &Settled, rounds: usize) 
         left = left.saturating_sub(1);
         left > 0
     };
-    go_on(problem, through, last, &SETTINGS, &mut watch).unwrap()
+    go_on(problem, through, last.state(), &SETTINGS, &mut watch).unwrap()
 }
 
 fn ball(pose: Pose) -> Bodies {
@@ -95,7 +95,7 @@ fn a_body_of_other_parts_is_refused() {
     let mut problem = over_ball();
     let first = rest(&problem);
     problem.bodies = Bodies::new(problem.bodies.parts()[..1].to_vec());
-    let refused = go_on(&problem, &[], &first, &SETTINGS, &mut |_| true);
+    let refused = go_on(&problem, &[], first.state(), &SETTINGS, &mut |_| true);
     assert_eq!(refused.unwrap_err(), Unsolvable::Changed);
 }
 

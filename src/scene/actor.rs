@@ -1,0 +1,65 @@
+//! Lowers those who move: a person, the pose in which the cloth is laid on, and a motion; and which
+//! moments of it are wanted.
+
+use super::{
+    document::{Allowed, At},
+    error::{Fault, SceneError},
+    format::{AnimationTable, RobotTable},
+    motion, person, posture,
+};
+use crate::{
+    math::Pose,
+    play::{Actor, Frames},
+    robot::Robot,
+    skeleton::Posture,
+};
+use std::path::PathBuf;
+
+const COUNT: Allowed = Allowed::new(1.0, 1e5, "frames");
+const RATE: Allowed = Allowed::new(0.1, 1e4, "frames per second");
+const USUAL_RATE: f64 = 24.0;
+
+/// The robot of a scene's body, in its place.
+pub(super) fn actor(
+    at: &At<'_>,
+    table: &RobotTable,
+    name: String,
+    place: Pose,
+) -> Result<Actor, SceneError> {
+    let at_person = at.key("person");
+    let measurements = person(&named(&at_person, &table.person)?)?;
+    let refused = |error: String| at_person.not_allowed(error);
+    let robot = Robot::new(&measurements).map_err(|error| refused(error.to_string()))?;
+    let skeleton = robot.skeleton();
+    let start = match &table.pose {
+        Some(pose) => posture(&named(&at.key("pose"), pose)?, skeleton)?,
+        None => Posture::standing(skeleton),
+    };
+    let played = |name: &String| motion(named(&at.key("motion"), name)?, skeleton);
+    let motion = table.motion.as_ref().map(played).transpose()?;
+    Actor::new(name, robot, place, start, motion).map_err(|error| {
+        let at = at.key("motion");
+        let key = at.name();
+        at.error(Fault::Motion { key, error })
+    })
+}
+
+/// A file beside the scene, or the name of what ships.
+fn named(at: &At<'_>, name: &str) -> Result<PathBuf, SceneError> {
+    let path = PathBuf::from(name);
+    if path.extension().is_some() || name.contains(['/', '\\']) {
+        at.file(&path)
+    } else {
+        Ok(path)
+    }
+}
+
+/// The moments that are wanted.
+pub(super) fn frames(at: &At<'_>, table: &AnimationTable) -> Result<Frames, SceneError> {
+    let count = at.key("frames").number(f64::from(table.frames), &COUNT)?;
+    let rate = table.frames_per_s.unwrap_or(USUAL_RATE);
+    Ok(Frames {
+        count: count as usize,
+        rate: at.key("frames_per_s").number(rate, &RATE)?,
+    })
+}
