@@ -139,6 +139,11 @@ impl Bent<'_> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(
+        clippy::print_stdout,
+        reason = "the figures are told to who asks with --nocapture"
+    )]
+
     use crate::{
         robot::{Ball, Robot, sample::everyone},
         skeleton::{Posture, Skeleton},

@@ -161,7 +161,7 @@ impl Builder<'_> {
     }
 
     /// Lays a ball on a bone half way between two others.
-    fn between(&mut self, bone: usize, one: usize, other: usize) -> usize {
+    pub(super) fn between(&mut self, bone: usize, one: usize, other: usize) -> usize {
         let [one, other] = [one, other].map(|ball| self.laid(ball));
         let centre = 0.5 * (one.centre + other.centre);
         self.ball(bone, centre, 0.5 * (one.radius + other.radius))

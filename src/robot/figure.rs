@@ -68,11 +68,11 @@ impl Robot {
             }
             robot = Self::built(person, &levels, &skeleton, &widths);
         }
-        robot.as_asked()
+        robot.accepted()
     }
 
     /// The body itself, when its girths are not far from those asked for.
-    fn as_asked(self) -> Result<Self, InvalidPerson> {
+    fn accepted(self) -> Result<Self, InvalidPerson> {
         for girth in Girth::ALL {
             let (asked, built) = (self.person.girths.of(girth), self.girth(girth));
             if (built - asked).abs() > FAR {

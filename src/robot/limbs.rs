@@ -86,8 +86,9 @@ impl Builder<'_> {
         let inward = side.vector(Vec3::new(-0.028, 0.0, -0.04)) * stature;
         let ribs = self.bone("thorax");
         let armpit = self.ball(ribs, start + vector + inward, 0.03 * stature);
-        if let [.., before, last] = balls.as_slice() {
-            self.web(limb, &[*before, *last], &[armpit; 2]);
+        if let Some(&tip) = balls.last() {
+            let between = self.between(ribs, tip, armpit);
+            self.string(limb, &[tip, between, armpit]);
         }
         self.group(Flesh::Shoulder, Some(side), since);
         balls

@@ -1,5 +1,10 @@
 //! Claims about whole bodies: three people, standing and bent.
 
+#![allow(
+    clippy::print_stdout,
+    reason = "the figures are told to who asks with --nocapture"
+)]
+
 use super::{
     bones::Side,
     field::Field,
