@@ -22,7 +22,7 @@ const BLOCK: usize = 4;
 /// Where limbs blend, the surface is this much farther out than any of them [cm], at most.
 const BLENDED: f64 = 2.5;
 /// Cells along an edge of the grid, at most: a giant's span, and memory's sake.
-const MOST: f64 = 640.0;
+const MOST: f64 = 420.0;
 /// How often vertices drift; triangles are then of nearly one size.
 const DRIFTS: usize = 8;
 
@@ -30,7 +30,7 @@ impl Robot {
     /// The skin over the muscles in place, closed and outward: a solid for cloth to lie on.
     ///
     /// # Errors
-    /// [`MeshError`] where frames are not finite or bones are farther apart than 6 m.
+    /// [`MeshError`] where frames are not finite or the body reaches farther than 4.2 m.
     pub fn skin(&self, posture: &Posture, frames: &[Pose]) -> Result<Mesh, MeshError> {
         let field = Field::of(&self.muscles, &self.balls(posture, frames));
         let (vertices, triangles) = covered(&field);
