@@ -4,18 +4,19 @@ use png::{BitDepth, ColorType, Encoder, EncodingError, SrgbRenderingIntent};
 
 /// Pixels in sRGB, rows from the top.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Image {
+pub struct Image {
     /// Pixels in a row.
-    pub(super) width: u32,
+    pub width: u32,
     /// Rows.
-    pub(super) height: u32,
+    pub height: u32,
     /// `width · height` colours.
-    pub(super) pixels: Vec<[u8; 3]>,
+    pub pixels: Vec<[u8; 3]>,
 }
 
 impl Image {
     /// The image as a PNG file; empty for an image without pixels, which PNG cannot hold.
-    pub(super) fn to_png(&self) -> Vec<u8> {
+    #[must_use]
+    pub fn to_png(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
         // A Vec takes all that is written, so only a size of 0 or a wrong count of pixels fails.
         if self.encode(&mut bytes).is_err() {

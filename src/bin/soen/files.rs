@@ -85,6 +85,7 @@ impl<'a> Files<'a> {
             caption: self.caption,
             width: self.size[0],
             height: self.size[1],
+            frame: None,
         };
         output::picture(cloth, &self.bodies, &view)
     }

@@ -8,6 +8,7 @@
 
 mod camera;
 mod develop;
+mod frame;
 mod glyphs;
 mod lamp;
 mod legend;
@@ -15,11 +16,13 @@ mod soften;
 mod stage;
 mod trace;
 
-use super::{BodyMesh, ClothMesh, HeatMap};
+use super::{BodyMesh, ClothMesh, HeatMap, png::Image};
 use camera::Camera;
 use develop::develop;
 use soften::soften;
 use stage::Stage;
+
+pub use frame::Frame;
 
 /// How a picture is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +35,9 @@ pub struct View<'a> {
     pub heat: Option<&'a HeatMap>,
     /// A line of text at the foot of the picture (printable ASCII), for a drape that is not at rest.
     pub caption: Option<&'a str>,
+    /// What the picture shows, instead of the cloth and what is around it. Pictures of equal frames
+    /// have the same camera, floor and light, whatever moves in them.
+    pub frame: Option<Frame>,
 }
 
 impl Default for View<'_> {
@@ -41,6 +47,7 @@ impl Default for View<'_> {
             height: 900,
             heat: None,
             caption: None,
+            frame: None,
         }
     }
 }
@@ -54,13 +61,18 @@ impl View<'_> {
 /// Takes a picture of a cloth and bodies; a PNG file.
 ///
 /// The camera stands three quarters to the side and looks down a little; it frames the cloth, and
-/// the bodies as far as they reach around it.
+/// the bodies as far as they reach around it, unless the view says what to frame.
 pub fn picture(cloth: &ClothMesh<'_>, bodies: &[BodyMesh], view: &View<'_>) -> Vec<u8> {
+    picture_pixels(cloth, bodies, view).to_png()
+}
+
+/// Takes the same picture as [`picture`], for a film or a sheet.
+pub fn picture_pixels(cloth: &ClothMesh<'_>, bodies: &[BodyMesh], view: &View<'_>) -> Image {
     let (width, height) = (
         view.width.clamp(1, View::MOST),
         view.height.clamp(1, View::MOST),
     );
-    let stage = Stage::new(cloth, bodies, view.heat);
+    let stage = Stage::new(cloth, bodies, view.heat, view.frame);
     let camera = Camera::framing(&stage.subject(), [width, height], view.heat.is_some());
     let mut samples = stage.expose(&camera);
     soften(&mut samples, 2 * width as usize);
@@ -71,7 +83,7 @@ pub fn picture(cloth: &ClothMesh<'_>, bodies: &[BodyMesh], view: &View<'_>) -> V
     if let Some(caption) = view.caption {
         legend::caption(&mut image, caption);
     }
-    image.to_png()
+    image
 }
 
 /// What one ray brought home.
@@ -133,6 +145,7 @@ mod tests {
         height: 60,
         heat: None,
         caption: None,
+        frame: None,
     };
 
     fn draped(view: &View<'_>) -> Vec<u8> {
@@ -187,6 +200,38 @@ mod tests {
                 ..SMALL
             }) != plain
         );
+    }
+
+    #[test]
+    fn a_frame_keeps_camera_and_floor_while_a_body_moves() {
+        let (low, high) = (Vec3::new(-30.0, -30.0, 0.0), Vec3::new(30.0, 30.0, 40.0));
+        let placed = sample::wave(2, 2, 1.0);
+        let nothing = ClothMesh {
+            positions: &[],
+            ..placed.cloth()
+        };
+        let at = |x, frame| {
+            let ball = sample::ball(Vec3::new(x, 0.0, 25.0), 4.0, 12);
+            picture_pixels(&nothing, &[ball], &View { frame, ..SMALL })
+        };
+        let frame = Some(Frame { low, high });
+        let (here, there) = (at(-15.0, frame), at(15.0, frame));
+        // The ball is seen at two places; where neither it nor its shadow is, nothing changed.
+        let changed = |p: &(&[u8; 3], &[u8; 3])| p.0 != p.1;
+        let changes = here
+            .pixels
+            .iter()
+            .zip(&there.pixels)
+            .filter(changed)
+            .count();
+        assert!((50..1200).contains(&changes), "{changes} of 4800");
+        // Without a frame the camera goes with the ball.
+        let (here, there) = (at(-15.0, None), at(15.0, None));
+        let near = |(a, b): (&[u8; 3], &[u8; 3])| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) < 3);
+        let same = here.pixels.iter().zip(&there.pixels).filter(|&p| near(p));
+        assert!(same.count() > 4700);
+        let broken = Frame { low, high: low };
+        assert_eq!(at(-15.0, Some(broken)), here);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What stands before the camera: cloth, bodies, floor.
 
 use super::{
-    Met, Sample,
+    Frame, Met, Sample,
     camera::Camera,
     lamp::Lamp,
     rows,
@@ -32,6 +32,8 @@ pub(super) struct Stage<'a> {
     bodies: Surface,
     coordinates: &'a [Vec2],
     heat: Option<(&'a HeatMap, Scale)>,
+    /// What the picture shows, where that was said.
+    frame: Option<Frame>,
     /// Height of the floor [cm].
     floor: f64,
     /// Middle and radius of all that casts shadows [cm].
@@ -45,18 +47,19 @@ impl<'a> Stage<'a> {
         cloth: &ClothMesh<'a>,
         bodies: &[BodyMesh],
         heat: Option<&'a HeatMap>,
+        frame: Option<Frame>,
     ) -> Self {
         let cloth_shell = Shell::of_cloth(cloth);
         let mut body_shell = Shell::default();
         for body in bodies {
             append(&mut body_shell, Shell::of_body(body));
         }
-        let lowest = |shell: &Shell| drawn(shell).map(|p| p.z).reduce(f64::min);
         let mut stage = Self {
             cloth: Surface::new(cloth_shell),
             bodies: Surface::new(body_shell),
             coordinates: &cloth.lattice.coordinates,
             heat: heat.map(|heat| (heat, heat.scale())),
+            frame: frame.filter(Frame::can_be_seen),
             floor: 0.0,
             centre: Vec3::zeros(),
             radius: 1.0,
@@ -66,19 +69,28 @@ impl<'a> Stage<'a> {
             stage.centre = 0.5 * (low + high);
             stage.radius = 0.5 * (high - low).norm();
         }
-        // A body stands on the floor; a cloth that hangs lower than it hangs free.
-        let hang = lowest(stage.cloth.shell()).map(|z| z - 0.06 * stage.radius);
-        let stand = lowest(stage.bodies.shell());
-        stage.floor = hang
-            .into_iter()
-            .chain(stand)
-            .reduce(f64::min)
-            .unwrap_or(0.0);
+        stage.floor = match &stage.frame {
+            Some(frame) => frame.low.z.min(frame.high.z),
+            None => stage.floor_below(),
+        };
         stage
     }
 
-    /// The points that the camera frames: the cloth, and bodies as far as they are near it.
+    /// A body stands on the floor; a cloth that hangs lower than it hangs free.
+    fn floor_below(&self) -> f64 {
+        let lowest = |shell: &Shell| drawn(shell).map(|p| p.z).reduce(f64::min);
+        let hang = lowest(self.cloth.shell()).map(|z| z - 0.06 * self.radius);
+        let stand = lowest(self.bodies.shell());
+        let lower = hang.into_iter().chain(stand).reduce(f64::min);
+        lower.unwrap_or(0.0)
+    }
+
+    /// The points that the camera frames: what was asked for, or the cloth, and bodies as far as
+    /// they are near it.
     pub(super) fn subject(&self) -> Vec<Vec3> {
+        if let Some(frame) = &self.frame {
+            return frame.corners().to_vec();
+        }
         let mut points: Vec<Vec3> = drawn(self.cloth.shell()).collect();
         let Some((low, high)) = bounds(points.iter().copied()) else {
             return drawn(self.bodies.shell()).collect();
@@ -280,7 +292,7 @@ mod tests {
     fn seen_from_above(cloth_at: f64) -> Option<Met> {
         let cloth = sample::flat(5, 1.0, cloth_at);
         let table = sample::cuboid(Vec3::new(-9.0, -9.0, -5.0), Vec3::new(9.0, 9.0, 0.0));
-        let stage = Stage::new(&cloth.cloth(), &[table], None);
+        let stage = Stage::new(&cloth.cloth(), &[table], None, None);
         let slanted = Vec3::new(0.3, 0.2, -1.0).normalize();
         stage
             .look(&Ray::new(slanted * -40.0, slanted), 1e-3)
@@ -298,8 +310,8 @@ mod tests {
     fn a_body_stands_on_the_floor_and_a_cloth_hangs_above_it() {
         let cloth = sample::flat(5, 1.0, 3.0);
         let table = sample::cuboid(Vec3::new(-1.0, -1.0, -5.0), Vec3::new(1.0, 1.0, 0.0));
-        assert_eq!(Stage::new(&cloth.cloth(), &[table], None).floor, -5.0);
-        let alone = Stage::new(&cloth.cloth(), &[], None).floor;
+        assert_eq!(Stage::new(&cloth.cloth(), &[table], None, None).floor, -5.0);
+        let alone = Stage::new(&cloth.cloth(), &[], None, None).floor;
         assert!((2.5..3.0).contains(&alone), "{alone}");
     }
 
@@ -307,7 +319,7 @@ mod tests {
     fn a_table_keeps_the_lamp_from_what_is_under_it() {
         let table = sample::cuboid(Vec3::new(-9.0, -9.0, 5.0), Vec3::new(9.0, 9.0, 6.0));
         let cloth = sample::flat(3, 1.0, 0.0);
-        let stage = Stage::new(&cloth.cloth(), &[table], None);
+        let stage = Stage::new(&cloth.cloth(), &[table], None, None);
         let at = |z| Vec3::new(0.0, 0.0, z);
         assert_eq!(
             [
@@ -325,7 +337,7 @@ mod tests {
     fn the_camera_looks_at_the_near_part_of_a_large_body() {
         let cloth = sample::flat(3, 1.0, 0.0);
         let hall = sample::cuboid(Vec3::repeat(-1000.0), Vec3::new(1000.0, 1000.0, -0.1));
-        let subject = Stage::new(&cloth.cloth(), &[hall], None).subject();
+        let subject = Stage::new(&cloth.cloth(), &[hall], None, None).subject();
         assert!(subject.iter().all(|p| p.amax() < 5.0), "{subject:?}");
     }
 }
