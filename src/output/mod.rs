@@ -1,5 +1,6 @@
 //! What a drape is handed on as: meshes for other programs (OBJ, GLB, PLY), a picture (PNG), heat
-//! maps with a legend in physical units, and the report (JSON). Curves become a plot (SVG),
+//! maps with a legend in physical units, and the report (JSON). What moves is one mesh (GLB) or a
+//! film of pictures (animated PNG). Curves become a plot (SVG),
 //! and what was found in measurements a fabric file (TOML).
 //!
 //! Everything is made in memory and returned; [`write()`] alone touches files, and it replaces a
@@ -7,10 +8,13 @@
 //! whose positions are not finite: cells and bodies that cannot be drawn are left out.
 //! The same input gives the same bytes, whatever the number of threads.
 
+mod animation;
+mod apng;
 mod colour;
 mod comparisons;
 mod fitted;
 mod glb;
+mod gltf_file;
 mod heat;
 mod obj;
 mod picture;
@@ -21,10 +25,13 @@ mod reading;
 mod report;
 #[cfg(test)]
 mod sample;
+mod sheet;
 mod shell;
 mod weave;
 mod write;
 
+pub use animation::{Film, animated_glb};
+pub use apng::animated_png;
 pub use comparisons::{comparison_table, comparisons};
 pub use fitted::{fabric_file, fit_plot, fit_report};
 pub use glb::glb;
@@ -36,6 +43,7 @@ pub use ply::ply;
 pub use png::Image;
 pub use reading::{curve, reading};
 pub use report::{Run, report};
+pub use sheet::contact_sheet;
 pub use write::{WriteError, write};
 
 use crate::{body::Bodies, lattice::Lattice, math::Vec3};

@@ -22,6 +22,7 @@
 //! - `reach`: hands and feet go to where they can, within limits, or say by how far they do not.
 //! - `postures`: each slip in a posture file gets its message; those that ship are within limits.
 //! - `persons`: the people that ship have bodies as measured, and bad files of people their messages.
+//! - `animation`: an independent reader finds in films what was put into them.
 
 mod bad_files;
 mod bad_input;
@@ -57,3 +58,5 @@ mod postures;
 mod reach;
 mod skeleton;
 mod woman;
+
+mod animation;
