@@ -65,6 +65,13 @@ impl Bodies {
         &self.parts
     }
 
+    /// Where each part's box is: its least and greatest corner [cm].
+    #[must_use]
+    pub fn places(&self) -> Vec<(Vec3, Vec3)> {
+        let corners = |part: &Aabb| (part.mins.into(), part.maxs.into());
+        self.boxes.iter().map(corners).collect()
+    }
+
     /// A part as it is here and as it is in other bodies; `None` where either has no such part.
     pub(crate) fn part_then_and_now<'a>(
         &'a self,

@@ -1,8 +1,9 @@
 //! Where a cloth holds on to bodies, taken along as they move: friction remembers its way.
 
 use super::{
+    Friction, Site, Skin,
     touch::Touch,
-    touches::{Places, Touches},
+    touches::{PLACES, Places, Touches},
 };
 use crate::{body::Bodies, lattice::Lattice, math::Vec3};
 
@@ -19,6 +20,14 @@ impl Footing {
     #[must_use]
     pub fn bodies(&self) -> &Bodies {
         &self.bodies
+    }
+
+    /// Whether the bodies stay where they are.
+    #[must_use]
+    pub fn stands_on(&self, through: &[Bodies], bodies: &Bodies) -> bool {
+        let places = self.bodies.places();
+        let mut stations = through.iter().chain([bodies]);
+        stations.all(|station| station.places() == places)
     }
 
     /// Whether it is that of a cloth cut like this.
@@ -106,4 +115,102 @@ impl Touches {
     pub fn stand_on(&mut self, footing: &Footing) {
         self.take_up(footing.touches.clone(), footing.places.clone());
     }
+}
+
+/// Numbers of a touch, and of a place in a cell.
+const OF_TOUCH: usize = 24;
+const OF_PLACE: usize = 2;
+/// Stands for a place that is not there: places are from 0 to 1.
+const NOWHERE: f64 = -1.0;
+
+impl Footing {
+    /// All of it but the bodies, as numbers that are finite: to be kept, and read by
+    /// [`from_numbers`](Self::from_numbers).
+    #[must_use]
+    pub fn numbers(&self) -> Vec<f64> {
+        let mut numbers = vec![self.touches.len() as f64];
+        for touch in &self.touches {
+            numbers.extend([f64::from(touch.number), f64::from(touch.part)]);
+            numbers.extend(touch.site.nodes.map(f64::from));
+            numbers.extend(touch.site.weights);
+            for vector in [touch.normal, touch.turn, touch.anchor] {
+                numbers.extend(vector.iter());
+            }
+            let (skin, friction) = (&touch.skin, &touch.friction);
+            numbers.extend([touch.top, skin.scale, skin.depth]);
+            numbers.extend([friction.limit, friction.give]);
+        }
+        for place in self.places.iter().flatten() {
+            numbers.extend(place.unwrap_or([NOWHERE; OF_PLACE]));
+        }
+        numbers
+    }
+
+    /// The footing of numbers, on bodies as they were; `None` where they are none of a cloth cut like
+    /// this on such bodies.
+    #[must_use]
+    pub fn from_numbers(numbers: &[f64], bodies: Bodies, lattice: &Lattice) -> Option<Self> {
+        let (count, rest) = numbers.split_first()?;
+        let of_places = lattice.cells.len() * PLACES * OF_PLACE;
+        let of_touches = rest.len().checked_sub(of_places)?;
+        let finite = numbers.iter().all(|number| number.is_finite());
+        if !finite || *count != (of_touches / OF_TOUCH) as f64 || of_touches % OF_TOUCH != 0 {
+            return None;
+        }
+        let (touches, places) = rest.split_at(of_touches);
+        let touches: Option<Vec<Touch>> = touches.chunks_exact(OF_TOUCH).map(touch_of).collect();
+        let place = |place: &[f64]| {
+            let place: [f64; OF_PLACE] = place.try_into().ok()?;
+            (place[0] >= 0.0).then_some(place)
+        };
+        let cell = |cell: &[f64]| {
+            let mut places: Places = [None; PLACES];
+            for (known, numbers) in places.iter_mut().zip(cell.chunks_exact(OF_PLACE)) {
+                *known = place(numbers);
+            }
+            places
+        };
+        let footing = Self {
+            touches: touches?,
+            places: places.chunks_exact(PLACES * OF_PLACE).map(cell).collect(),
+            bodies,
+        };
+        let parts = footing.bodies.parts().len();
+        let known = |touch: &Touch| (touch.part as usize) < parts;
+        (footing.fits(lattice) && footing.touches.iter().all(known)).then_some(footing)
+    }
+}
+
+fn touch_of(numbers: &[f64]) -> Option<Touch> {
+    let numbers: &[f64; OF_TOUCH] = numbers.try_into().ok()?;
+    let whole = |number: f64| {
+        let within = (0.0..=f64::from(u32::MAX)).contains(&number) && number.fract() == 0.0;
+        within.then_some(number as u32)
+    };
+    let vector = |first: usize| Vec3::new(numbers[first], numbers[first + 1], numbers[first + 2]);
+    Some(Touch {
+        number: whole(numbers[0])?,
+        part: whole(numbers[1])?,
+        site: Site {
+            nodes: [
+                whole(numbers[2])?,
+                whole(numbers[3])?,
+                whole(numbers[4])?,
+                whole(numbers[5])?,
+            ],
+            weights: [numbers[6], numbers[7], numbers[8], numbers[9]],
+        },
+        normal: vector(10),
+        turn: vector(13),
+        anchor: vector(16),
+        top: numbers[19],
+        skin: Skin {
+            scale: numbers[20],
+            depth: numbers[21],
+        },
+        friction: Friction {
+            limit: numbers[22],
+            give: numbers[23],
+        },
+    })
 }

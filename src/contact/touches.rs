@@ -54,7 +54,7 @@ const LIMIT_KEPT: f64 = 0.001;
 const SAMPLE_REACH: f64 = 0.005;
 
 /// Places of features that a cell remembers at most.
-const PLACES: usize = 6;
+pub(super) const PLACES: usize = 6;
 /// A place nearer than this to a remembered one, in parts of the cell's side, is the same.
 const SAME_PLACE: f64 = 0.05;
 /// A remembered place this far from all surfaces [cm], beyond its reach, is forgotten.

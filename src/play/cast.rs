@@ -10,9 +10,12 @@ use crate::{
 
 /// How long all take from where the cloth is laid on to where their motions begin [s].
 pub const ENTRANCE: f64 = 1.0;
-/// From one station to the next nobody moves by more than this against the rest of the body [cm]:
-/// a tenth of a thin arm, so that no cloth is on its other side before it was pushed along.
-const STATION: f64 = 0.5;
+/// From one station to the next no muscle near the cloth moves by more than this against the rest of
+/// the body [cm]: a third of a thin arm's radius, so that the cloth is pushed along before any of it
+/// could be on the other side.
+const STATION: f64 = 1.0;
+/// What is farther away from the cloth's box than this [cm] when a way begins is not near it.
+const NEAR: f64 = 5.0;
 /// Looks at a way between two stations: the arc of a limb is longer than its chord.
 const LOOKS: usize = 8;
 
@@ -140,23 +143,36 @@ impl Cast {
         Ok(Bodies::new(parts))
     }
 
-    /// The bodies between two times [s], at stations so close together that no cloth is passed
-    /// through; neither end is among them.
+    /// The bodies between two times [s], at stations so close together that a cloth at these places
+    /// [cm] is not passed through; neither end is among them.
     ///
     /// # Errors
     /// [`PartError`], as [`bodies`](Self::bodies).
-    pub fn between(&self, from: f64, to: f64) -> Result<Vec<Bodies>, PartError> {
-        let ways = self.actors().map(|actor| longest_way(actor, from, to));
+    pub fn between(&self, from: f64, to: f64, cloth: &[Vec3]) -> Result<Vec<Bodies>, PartError> {
+        let low = cloth
+            .iter()
+            .fold(Vec3::repeat(f64::INFINITY), |low, at| low.inf(at));
+        let high = cloth
+            .iter()
+            .fold(Vec3::repeat(f64::NEG_INFINITY), |high, at| high.sup(at));
+        let is_near = |ball: &Ball| {
+            let reach = Vec3::repeat(ball.radius + NEAR);
+            ball.centre >= low - reach && ball.centre <= high + reach
+        };
+        let ways = self
+            .actors()
+            .map(|actor| longest_way(actor, from, to, is_near));
         let steps = (ways.fold(0.0, f64::max) / STATION).ceil().max(1.0);
         let time = |k: usize| from + (to - from) * (k as f64 / steps);
         (1..steps as usize).map(|k| self.bodies(time(k))).collect()
     }
 }
 
-/// How far the farthest muscle goes between two times against the middle of all [cm].
-fn longest_way(actor: &Actor, from: f64, to: f64) -> f64 {
+/// How far the farthest muscle that counts goes between two times against the middle of all [cm].
+fn longest_way(actor: &Actor, from: f64, to: f64, counts: impl Fn(&Ball) -> bool) -> f64 {
     let look = |k: usize| actor.balls(from + (to - from) * (k as f64 / LOOKS as f64));
     let mut before = look(0);
+    let counts: Vec<bool> = before.iter().map(counts).collect();
     let mut ways = vec![0.0; before.len()];
     for k in 1..=LOOKS {
         let now = look(k);
@@ -166,7 +182,8 @@ fn longest_way(actor: &Actor, from: f64, to: f64) -> f64 {
         }
         before = now;
     }
-    ways.into_iter().fold(0.0, f64::max)
+    let counted = ways.into_iter().zip(counts).filter(|(_, counts)| *counts);
+    counted.map(|(way, _)| way).fold(0.0, f64::max)
 }
 
 fn middle(balls: &[Ball]) -> Vec3 {

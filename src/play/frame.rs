@@ -71,6 +71,6 @@ pub fn next(
         bodies: cast.bodies(to)?,
         ..problem.clone()
     };
-    let through = cast.between(from, to)?;
+    let through = cast.between(from, to, before.0)?;
     Ok(go_on(&problem, &through, before, settings, watch)?)
 }

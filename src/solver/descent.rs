@@ -2,7 +2,11 @@
 
 use super::{
     ForceModel, Level as LevelWork, Problem, Progress, Settings, Settled, Unsolvable,
-    carry::carry_over, film::Film, level::Level, rest::Run, start::Start,
+    carry::carry_over,
+    film::Film,
+    level::Level,
+    rest::{Firmness, Run},
+    start::Start,
 };
 use crate::{
     certificate::{Case, certify, drape_shape},
@@ -39,6 +43,7 @@ pub(super) fn descend(
         film: Film::new(settings.frames),
         stopped: false,
         lands: true,
+        firmness: Firmness::CARRIED,
     };
     for (number, lattice) in lattices.iter().enumerate() {
         let last = number + 1 == lattices.len();

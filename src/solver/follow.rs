@@ -2,8 +2,7 @@
 //! what friction remembers of its way.
 //!
 //! 1. Bodies and holds move by a small step; what friction holds on to goes with its part.
-//! 2. The whole cloth goes along as those places do: moved over the ground and turned about the
-//!    vertical, which changes no force in it.
+//! 2. Every node goes along as the bodies near it do.
 //! 3. Nodes that a body has entered come out, and a few steps with inertia bring the cloth nearer to
 //!    rest.
 //! 4. After the last step it is brought to rest in full.
@@ -16,7 +15,7 @@ use super::{
     inertia::Inertia,
     joint::Joint,
     level::Level,
-    rest::{CARRIED, CARRYING, Run, Standing},
+    rest::{CARRIED, CARRYING, Firmness, Run, Standing},
     start::Start,
 };
 use crate::{
@@ -24,6 +23,7 @@ use crate::{
     contact::{Footing, Surface, Touches},
     lattice::Lattice,
     math::Vec3,
+    threads,
 };
 
 /// Goes on from a drape of the same cloth: through bodies as they stand in between, to the problem's.
@@ -47,6 +47,11 @@ pub(super) fn go_on(
         film: Film::new(settings.frames),
         stopped: false,
         lands: false,
+        firmness: if before.1.stands_on(through, &problem.bodies) {
+            Firmness::STUCK
+        } else {
+            Firmness::CARRIED
+        },
     };
     let stations: Vec<&Bodies> = through.iter().chain([&problem.bodies]).collect();
     run.follow(&mut level, &start, &surface, &stations, before.1);
@@ -112,11 +117,11 @@ impl<'a> Run<'_> {
             }
             let moved = footing.carried(bodies);
             level.bodies = bodies;
-            go_along(&mut level.at, &footing, &moved);
+            go_along(&mut level.at, &level.held, &footing, &moved);
             level.touches.stand_on(&moved);
             let pitch = level.lattice.pitch;
             level.look(pitch, pitch);
-            level.hold_firmly(surface.friction);
+            level.hold(surface.friction, self.firmness);
             for part in 1..=parts {
                 let done = (number * parts + part) as f64 / steps;
                 for held in &held {
@@ -162,38 +167,89 @@ fn carried(level: &Level<'_>, start: &Start) -> Vec<Carried> {
     carried.collect()
 }
 
-/// Moves a cloth over the ground and turns it about the vertical as the places do that it holds on
-/// to, each with the weight of what friction bears there.
-fn go_along(at: &mut [Vec3], before: &Footing, now: &Footing) {
-    let ways: Vec<(Vec3, Vec3, f64)> = before.ways(now).collect();
-    let weight: f64 = ways.iter().map(|(_, _, weight)| weight).sum();
-    if weight <= 0.0 {
-        return;
+/// What is farther away than this [cm] does not take the cloth along.
+const REACH: f64 = 15.0;
+/// What is nearer than this [cm] takes it along as what is touched.
+const TOUCHED: f64 = 1.0;
+
+/// Takes every node along as the bodies near it go, the nearer the more (Shepard 1968), and as all
+/// that the cloth holds on to where none is near: so what lies on a part stays on it, and what hangs
+/// between two is not torn.
+fn go_along(at: &mut [Vec3], held: &[bool], before: &Footing, now: &Footing) {
+    let whole = Whole::of(before, now);
+    let (from, to) = (before.bodies(), now.bodies());
+    let gone = threads::map(at.len(), |node| {
+        let place = at[node];
+        if held[node] {
+            return place;
+        }
+        let far = weight_at(REACH);
+        let (mut sum, mut weights) = ((whole.carries(&place) - place) * far, far);
+        for near in from.near(&place, REACH) {
+            let Some((then, now)) = from.part_then_and_now(near.part, to) else {
+                continue;
+            };
+            let weight = weight_at(near.distance);
+            sum += (now.carries(then, &place) - place) * weight;
+            weights += weight;
+        }
+        place + sum / weights
+    });
+    at.copy_from_slice(&gone);
+}
+
+fn weight_at(distance: f64) -> f64 {
+    let near = TOUCHED / (distance.max(0.0) + TOUCHED);
+    near * near * near * near
+}
+
+/// How all that a cloth holds on to goes as one: over the ground, and about the vertical, which
+/// changes no force in a cloth.
+struct Whole {
+    from: Vec3,
+    to: Vec3,
+    sine: f64,
+    cosine: f64,
+}
+
+impl Whole {
+    /// By the places where friction holds on, each with the weight of what it bears there.
+    fn of(before: &Footing, now: &Footing) -> Self {
+        let ways: Vec<(Vec3, Vec3, f64)> = before.ways(now).collect();
+        let weight: f64 = ways.iter().map(|(_, _, weight)| weight).sum();
+        let mut whole = Self {
+            from: Vec3::zeros(),
+            to: Vec3::zeros(),
+            sine: 0.0,
+            cosine: 1.0,
+        };
+        if weight <= 0.0 {
+            return whole;
+        }
+        for (from, to, part) in &ways {
+            whole.from += from * (part / weight);
+            whole.to += to * (part / weight);
+        }
+        let (mut sine, mut cosine) = (0.0, 0.0);
+        for (from, to, part) in &ways {
+            let (a, b) = (from - whole.from, to - whole.to);
+            sine += part * (a.x * b.y - a.y * b.x);
+            cosine += part * (a.x * b.x + a.y * b.y);
+        }
+        let size = libm::hypot(sine, cosine);
+        if size > 0.0 {
+            (whole.sine, whole.cosine) = (sine / size, cosine / size);
+        }
+        whole
     }
-    let mean = |of: fn(&(Vec3, Vec3, f64)) -> Vec3| {
-        let sum: Vec3 = ways.iter().map(|way| of(way) * way.2).sum();
-        sum / weight
-    };
-    let (from, to) = (mean(|way| way.0), mean(|way| way.1));
-    let (mut sine, mut cosine) = (0.0, 0.0);
-    for (then, now, weight) in &ways {
-        let (a, b) = (then - from, now - to);
-        sine += weight * (a.x * b.y - a.y * b.x);
-        cosine += weight * (a.x * b.x + a.y * b.y);
-    }
-    let size = libm::hypot(sine, cosine);
-    let (sine, cosine) = if size > 0.0 {
-        (sine / size, cosine / size)
-    } else {
-        (0.0, 1.0)
-    };
-    for position in at {
-        let way = *position - from;
+
+    fn carries(&self, place: &Vec3) -> Vec3 {
+        let way = place - self.from;
         let turned = Vec3::new(
-            cosine * way.x - sine * way.y,
-            sine * way.x + cosine * way.y,
+            self.cosine * way.x - self.sine * way.y,
+            self.sine * way.x + self.cosine * way.y,
             way.z,
         );
-        *position = to + turned;
+        self.to + turned
     }
 }

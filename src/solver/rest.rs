@@ -39,11 +39,6 @@ const ACQUAINTED: usize = 3;
 /// free step asks for less than this part of a pitch.
 const LANDING_GRIP: f64 = 10.0;
 const LANDED: f64 = 0.2;
-/// A cloth that goes on from a drape is let go when a joint step asks for less than this [cm].
-const EASED: f64 = 1e-3;
-/// Until then friction is so many times as strong: as stiff as yarns are, so that no jolt of theirs
-/// tears off what sticks.
-const FIRM_GRIP: f64 = 1e5;
 /// Sweeps before each step of a landing: they settle what is near, it settles what is far.
 const SWEEPS: usize = 4;
 /// Holds are carried so far at a time, in pitches, with so many steps to follow them.
@@ -51,6 +46,8 @@ pub(super) const CARRIED: f64 = 0.1;
 pub(super) const CARRYING: usize = 10;
 /// A shape that is not stable is moved on by this part of a pitch.
 const KICK: f64 = 0.02;
+/// A cloth whose steps ask for less than this part of a pitch stands still.
+const STUCK: f64 = 1e-7;
 /// Bold joint steps go on as long as each goes farther than this part of a pitch.
 const WORTHWHILE: f64 = 0.02;
 /// Sweeps between two looks at the residual where there are no joint steps.
@@ -68,6 +65,32 @@ pub(super) struct Run<'w> {
     pub(super) stopped: bool,
     /// Whether the coarsest level starts flat, far above its rest; else it goes on from a drape.
     pub(super) lands: bool,
+    /// How a cloth that goes on is held while it is disturbed.
+    pub(super) firmness: Firmness,
+}
+
+/// How a cloth that goes on from a drape is held while it is not near rest.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Firmness {
+    /// Friction is so many times as strong.
+    pub(super) times: f64,
+    /// Until a joint step asks for less than this part of a pitch; 0: until bodies and holds are where
+    /// they belong.
+    pub(super) until: f64,
+}
+
+impl Firmness {
+    /// Of a cloth on bodies that stand still while holds move: as stiff as yarns are, so that no jolt
+    /// of theirs tears off what sticks.
+    pub(super) const STUCK: Self = Self {
+        times: 1e5,
+        until: 2e-3,
+    };
+    /// Of a cloth on bodies that move under it: as when it lands, so that what must slip can.
+    pub(super) const CARRIED: Self = Self {
+        times: LANDING_GRIP,
+        until: 0.0,
+    };
 }
 
 /// How a level stands after a round.
@@ -115,7 +138,10 @@ impl Run<'_> {
             self.carry_holds(level, start, &standing);
             level.touches.rub(LANDING_GRIP * case.surface.friction);
         }
-        let mut gripped = !self.lands;
+        let mut gripped = !self.lands && self.firmness.until > 0.0;
+        if !self.lands && !gripped {
+            level.let_go(case.surface.friction);
+        }
         for round in 0.. {
             if !self.goes_on(level, number, &standing) {
                 break;
@@ -131,7 +157,9 @@ impl Run<'_> {
             if lands && wants_less(LANDED * pitch) {
                 level.touches.rub(case.surface.friction);
             }
-            if gripped && step.is_some_and(|step| step.asked < EASED) {
+            if gripped
+                && step.is_some_and(|step| step.asked < self.firmness.until * level.lattice.pitch)
+            {
                 gripped = false;
                 level.let_go(case.surface.friction);
                 standing.near = false;
@@ -144,6 +172,14 @@ impl Run<'_> {
             let Some(step) = step else { continue };
             if !last {
                 continue;
+            }
+            if !self.lands && !step.exact && step.asked < STUCK * pitch {
+                // At a standstill that is no rest: what pushed it there holds it in balance.
+                if let Some(way) = joint.way_out(level) {
+                    level.kick(&way, KICK);
+                    standing.near = false;
+                    continue;
+                }
             }
             if standing.settled_for > 1 {
                 joint.finish(level, step.asked);
@@ -385,8 +421,8 @@ impl Joint {
 
 impl Level<'_> {
     /// Strengthens friction [-] for a cloth that is not near rest; no force is changed by that.
-    pub(super) fn hold_firmly(&mut self, friction: f64) {
-        self.touches.grip(FIRM_GRIP * friction, true, &self.at);
+    pub(super) fn hold(&mut self, friction: f64, firmness: Firmness) {
+        self.touches.grip(firmness.times * friction, true, &self.at);
     }
 
     /// Gives friction its own strength [-] again.

@@ -20,6 +20,12 @@ pub(crate) enum Command {
     /// Exit codes: 0 certified, 2 bad input, 3 stopped before it was certified (the files are
     /// written and marked), 1 anything else. Ctrl-C stops and writes; a second one ends at once.
     Drape(Wish),
+    /// Finds a drape for each frame of a motion, each gone on from the last, and writes the film.
+    ///
+    /// Finished frames are kept in DIR: a run that was ended goes on from its last good frame, to
+    /// the same bits. Exit codes: 0 all frames certified, 2 bad input, 3 stopped, or a frame is not
+    /// certified, 1 anything else. Ctrl-C stops and writes; a second one ends at once.
+    Animate(AnimateWish),
     /// Reads a scene and all its files, finds out whether a drape can begin, solves nothing, and
     /// prints what was understood.
     Check {
@@ -70,6 +76,30 @@ pub(crate) struct Wish {
     pub(crate) maps: Vec<Map>,
 }
 
+#[derive(Args, Debug)]
+pub(crate) struct AnimateWish {
+    /// The scene file, with an [animation] and a robot that has a motion.
+    pub(crate) scene: PathBuf,
+    /// Folder for animation.glb, report.json, the kept frames and pictures.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Shows the frames from A up to, not with, B; all where not given.
+    #[arg(long, value_name = "A..B", value_parser = range)]
+    pub(crate) frames: Option<(usize, usize)>,
+    /// Also writes a picture of each frame, frame-0000.png, …, and all of them as animation.png.
+    #[arg(long)]
+    pub(crate) pictures: bool,
+    /// Threads; all cores where not given. The result is the same, bit for bit.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Prints the report alone on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Stops each frame after this time, in place of the scene's max_seconds.
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub(crate) max_seconds: Option<f64>,
+}
+
 #[derive(Debug, Subcommand)]
 pub(crate) enum FabricWish {
     /// Lists the fabrics that ship.
@@ -103,6 +133,12 @@ fn seconds(text: &str) -> Result<f64, String> {
         Ok(seconds) if (0.0..=1e7).contains(&seconds) => Ok(seconds),
         _ => Err("allowed: 0 to 10000000 seconds".into()),
     }
+}
+
+fn range(text: &str) -> Result<(usize, usize), String> {
+    let ends = text.split_once("..");
+    let ends = ends.and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
+    ends.ok_or_else(|| "allowed: A..B, two whole numbers".into())
 }
 
 fn map(word: &str) -> Result<Map, String> {

@@ -56,7 +56,7 @@ pub(crate) fn drape(wish: &Wish) -> Result<ExitCode, Failure> {
 
 /// Finds out before the long work whether its result can be kept, and leaves no trace of it: a
 /// drape that comes to nothing makes no folder.
-fn try_folder(folder: &Path) -> Result<(), Failure> {
+pub(crate) fn try_folder(folder: &Path) -> Result<(), Failure> {
     let absent = folder.ancestors().take_while(|above| !above.exists());
     let absent: Vec<&Path> = absent.collect();
     let trial = folder.join(format!(".soen-{}.trial", std::process::id()));
@@ -74,7 +74,7 @@ fn try_folder(folder: &Path) -> Result<(), Failure> {
 }
 
 #[cfg(feature = "threads")]
-fn set_threads(wished: Option<u16>) -> Result<usize, Failure> {
+pub(crate) fn set_threads(wished: Option<u16>) -> Result<usize, Failure> {
     // 0 asks rayon for as many as there are cores.
     rayon::ThreadPoolBuilder::new()
         .num_threads(wished.unwrap_or(0).into())
@@ -84,7 +84,7 @@ fn set_threads(wished: Option<u16>) -> Result<usize, Failure> {
 }
 
 #[cfg(not(feature = "threads"))]
-fn set_threads(wished: Option<u16>) -> Result<usize, Failure> {
+pub(crate) fn set_threads(wished: Option<u16>) -> Result<usize, Failure> {
     match wished {
         None | Some(1) => Ok(1),
         Some(_) => Err(Failure::Input(

@@ -1,11 +1,13 @@
 //! `soen`: how measured cloth hangs, from the command line.
 
+mod animate;
 mod args;
 mod check;
 mod drape;
 mod fabric;
 mod failure;
 mod files;
+mod film;
 mod fit;
 mod lab;
 mod progress;
@@ -22,6 +24,7 @@ use std::{
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Drape(wish) => drape::drape(&wish),
+        Command::Animate(wish) => animate::animate(&wish),
         Command::Check { scene } => check::check(&scene),
         Command::Fabric { wish } => fabric::fabric(&wish),
         Command::Lab(wish) => lab::lab(&wish),

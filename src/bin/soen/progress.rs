@@ -13,10 +13,17 @@ use std::{
 pub(crate) struct Teller {
     bar: Option<ProgressBar>,
     level: Option<usize>,
+    /// What is being made.
+    name: String,
 }
 
 impl Teller {
     pub(crate) fn new() -> Self {
+        Self::of("")
+    }
+
+    /// Of one of several runs, each with a name.
+    pub(crate) fn of(name: &str) -> Self {
         let bar = io::stderr().is_terminal().then(|| {
             let style = ProgressStyle::with_template("{spinner} {elapsed} {msg}");
             let bar = ProgressBar::new_spinner();
@@ -26,7 +33,16 @@ impl Teller {
                 Err(_) => bar,
             }
         });
-        Self { bar, level: None }
+        let name = if name.is_empty() {
+            String::new()
+        } else {
+            format!("{name}: ")
+        };
+        Self {
+            bar,
+            level: None,
+            name,
+        }
     }
 
     pub(crate) fn tell(&mut self, progress: &Progress) {
@@ -34,7 +50,8 @@ impl Teller {
         let is_new = self.level.replace(level) != Some(level);
         let text = || {
             format!(
-                "level {} of {levels}, {} nodes, sweep {}, residual {:.1e}",
+                "{}level {} of {levels}, {} nodes, sweep {}, residual {:.1e}",
+                self.name,
                 level + 1,
                 progress.nodes,
                 progress.sweeps,
@@ -44,7 +61,12 @@ impl Teller {
         match &self.bar {
             Some(bar) => bar.set_message(text()),
             None if is_new => {
-                let line = format!("level {} of {levels}, {} nodes", level + 1, progress.nodes);
+                let line = format!(
+                    "{}level {} of {levels}, {} nodes",
+                    self.name,
+                    level + 1,
+                    progress.nodes
+                );
                 // Progress is a courtesy: a closed standard error does not stop the run.
                 let _ = writeln!(io::stderr(), "{line}");
             }
