@@ -68,6 +68,20 @@ impl Footing {
 }
 
 impl Touches {
+    /// Where features meet each cell and something `held` there. The others are forgotten: under a
+    /// cloth that moves on, they would soon fill all the places that it can remember.
+    fn places_of(&self, held: impl Fn(u32) -> bool) -> Vec<Places> {
+        let cells = self.places().iter().enumerate();
+        let kept = cells.map(|(cell, places)| {
+            let mut kept = *places;
+            for (k, place) in kept.iter_mut().enumerate() {
+                *place = place.filter(|_| held(self.number_of_place(cell, k)));
+            }
+            kept
+        });
+        kept.collect()
+    }
+
     /// Where the cloth holds on. Friction that has reached its limit lets its anchor follow, so that
     /// it can turn round (return mapping).
     #[must_use]
@@ -82,10 +96,12 @@ impl Touches {
                 ..*touch
             }
         });
+        let touches: Vec<Touch> = touches.collect();
+        let held = |number: u32| touches.binary_search_by_key(&number, |t| t.number).is_ok();
         Footing {
             bodies: bodies.clone(),
-            touches: touches.collect(),
-            places: self.places().to_vec(),
+            places: self.places_of(held),
+            touches,
         }
     }
 

@@ -112,6 +112,12 @@ impl Touches {
         &self.places
     }
 
+    /// The number of the site at a place of a cell.
+    pub(super) fn number_of_place(&self, cell: usize, place: usize) -> u32 {
+        let first = self.clearance.len() + cell * self.sites_of_cell();
+        (first + self.sites.samples() + place) as u32
+    }
+
     /// Goes on with touches, in order, and places that were found before; nothing is known of
     /// clearances.
     pub(super) fn take_up(&mut self, touches: Vec<Touch>, places: Vec<Places>) {
