@@ -126,7 +126,6 @@ impl Field {
     }
 
     /// How far a point is outside, limbs not blended [cm].
-    #[cfg(test)]
     pub(super) fn bare(&self, point: &Vec3) -> f64 {
         let distances = self
             .pieces

@@ -19,6 +19,7 @@ use crate::{
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     person: Measurements,
+    pub(super) levels: Levels,
     skeleton: Skeleton,
     tapes: Vec<Tape>,
     bulges: Vec<Bulge>,
@@ -91,6 +92,7 @@ impl Robot {
         let tapes = Girth::ALL.map(|girth| builder.tape(girth)).to_vec();
         Self {
             person: person.clone(),
+            levels: *levels,
             skeleton: skeleton.clone(),
             tapes,
             bulges: bulges(skeleton, &builder.made),
@@ -124,6 +126,12 @@ impl Robot {
     pub fn girth(&self, girth: Girth) -> f64 {
         let found = self.tapes.iter().find(|tape| tape.girth == girth);
         found.map_or(0.0, |tape| tape.around(&self.standing()))
+    }
+
+    /// Height at which a girth is taken [cm].
+    pub(super) fn height(&self, girth: Girth) -> f64 {
+        let found = self.tapes.iter().find(|tape| tape.girth == girth);
+        found.map_or(0.0, |tape| tape.at.z)
     }
 
     /// The muscles in place, in the order of [`muscles`](Self::muscles), when the joints are turned

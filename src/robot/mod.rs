@@ -11,7 +11,7 @@
 //! ```
 //! use soen::{robot::{Girth, Robot}, skeleton::Posture};
 //!
-//! let woman = soen::scene::person("bodies/woman-158.toml".as_ref())?;
+//! let woman = soen::scene::person("woman-158".as_ref())?;
 //! let robot = Robot::new(&woman)?;
 //! assert!((robot.girth(Girth::Waist) - 64.0).abs() < 0.1);
 //! let standing = Posture::standing(robot.skeleton());
@@ -25,6 +25,7 @@ mod bulge;
 mod extremities;
 mod field;
 mod figure;
+mod found;
 mod levels;
 mod limbs;
 mod measurements;
@@ -42,3 +43,10 @@ pub use bones::InvalidPerson;
 pub use figure::Robot;
 pub use measurements::{Girth, Girths, InvalidMeasurement, Lengths, Measurements};
 pub use muscles::{Ball, Muscle};
+
+/// Name and file text of each person that ships.
+pub const PEOPLE: [(&str, &str); 3] = [
+    ("woman-158", include_str!("../../bodies/woman-158.toml")),
+    ("man-170", include_str!("../../bodies/man-170.toml")),
+    ("child-120", include_str!("../../bodies/child-120.toml")),
+];

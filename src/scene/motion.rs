@@ -49,17 +49,27 @@ impl Source {
         if ending.eq_ignore_ascii_case("bvh") {
             return Ok(Self::Capture(path.into()));
         }
-        let name = path.to_string_lossy();
-        if !ending.is_empty() || name.contains(['/', '\\']) {
-            return Ok(Self::File(Document::open(path)?));
-        }
-        let shipped = shipped_or_here("bodies/motions", &MOTIONS, &name, "motion");
-        shipped.map(Self::File).map_err(|fault| SceneError {
-            file: path.into(),
-            place: None,
-            fault: Box::new(fault),
-        })
+        document(path, "bodies/motions", &MOTIONS, "motion").map(Self::File)
     }
+}
+
+/// The file at a path; of a name alone the file of that name in a folder here or, failing that, the
+/// text of that name that ships.
+pub(super) fn document(
+    path: &Path,
+    folder: &str,
+    shipped: &[(&str, &'static str)],
+    key: &str,
+) -> Result<Document, SceneError> {
+    let name = path.to_string_lossy();
+    if path.extension().is_some() || name.contains(['/', '\\']) {
+        return Document::open(path);
+    }
+    shipped_or_here(folder, shipped, &name, key).map_err(|fault| SceneError {
+        file: path.into(),
+        place: None,
+        fault: Box::new(fault),
+    })
 }
 
 /// The file of a name in a folder here or, failing that, the text of that name that ships.

@@ -1,28 +1,29 @@
 //! Reads a person's measurements.
 
-use super::{
-    document::{At, Document},
-    error::SceneError,
-    format::Table,
+use super::{document::At, error::SceneError, format::Table, motion::document};
+use crate::robot::{
+    Girths, InvalidMeasurement, InvalidPerson, Lengths, Measurements, PEOPLE, Robot,
 };
-use crate::robot::{Girths, InvalidMeasurement, InvalidPerson, Lengths, Measurements, Robot};
 use serde::Deserialize;
 use std::path::Path;
 
-/// Reads a person's measurements, of whom a body can be built.
+/// Reads a person's measurements, of whom a body can be built: a path to a `.toml`, or the name of
+/// one of the [`PEOPLE`] that ship.
+///
+/// A file `bodies/NAME.toml` in the present folder comes before the person of that name that ships,
+/// so that a copy can be edited.
 ///
 /// # Errors
 /// [`SceneError`] where the file is none, a measurement is outside its range, or they do not go
 /// together.
 ///
 /// ```
-/// # let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-/// let woman = soen::scene::person(&root.join("bodies/woman-158.toml"))?;
+/// let woman = soen::scene::person("woman-158".as_ref())?;
 /// assert_eq!(woman.stature, 158.0);
 /// # Ok::<(), soen::scene::SceneError>(())
 /// ```
 pub fn person(path: &Path) -> Result<Measurements, SceneError> {
-    let document = Document::open(path)?;
+    let document = document(path, "bodies", &PEOPLE, "person")?;
     let person = document.content::<PersonFile>()?.measurements();
     match Robot::new(&person) {
         Ok(_) => Ok(person),

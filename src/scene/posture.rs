@@ -2,13 +2,14 @@
 
 use super::{
     complaint::nearest,
-    document::{Allowed, At, Document},
+    document::{Allowed, At},
     error::{Fault, SceneError},
     format::{Numbers, Table},
+    motion::document,
 };
 use crate::{
     math::{Pose, Rotation, Vec3, turn},
-    skeleton::{Bone, Joint, Posture, Skeleton},
+    skeleton::{Bone, Joint, POSES, Posture, Skeleton},
 };
 use core::f64::consts::PI;
 use serde::Deserialize;
@@ -53,7 +54,8 @@ struct ReachTable {
     to_cm: Numbers<3>,
 }
 
-/// Reads a posture file for a skeleton.
+/// Reads a posture for a skeleton: a path to a `.toml`, or the name of one of the [`POSES`] that
+/// ship; a file `bodies/poses/NAME.toml` in the present folder comes before those.
 ///
 /// The angles come first, then the figure is put on the ground, unless `ground = false`, then the
 /// reaches follow in their order: their points are in the room. A reach moves joints of its limb
@@ -63,7 +65,7 @@ struct ReachTable {
 /// [`SceneError`] shows the first name or value that is not allowed: a joint or an angle that the
 /// skeleton does not have, an angle beyond its limit, a point that is not reached.
 pub fn posture(path: &Path, skeleton: &Skeleton) -> Result<Posture, SceneError> {
-    let document = Document::open(path)?;
+    let document = document(path, "bodies/poses", &POSES, "pose")?;
     let file: PostureFile = document.content()?;
     let top = document.top();
     let mut posture = Posture::standing(skeleton);

@@ -13,7 +13,7 @@ mod reach;
 mod rig;
 
 pub use joint::{Exceeded, Joint};
-pub use posture::Posture;
+pub use posture::{POSES, Posture};
 pub use reach::Reached;
 
 use crate::math::Vec3;

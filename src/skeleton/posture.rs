@@ -3,6 +3,22 @@
 use super::Skeleton;
 use crate::math::{Pose, Rotation};
 
+/// Name and file text of each posture that ships.
+pub const POSES: [(&str, &str); 6] = [
+    ("standing", include_str!("../../bodies/poses/standing.toml")),
+    (
+        "arms-down",
+        include_str!("../../bodies/poses/arms-down.toml"),
+    ),
+    ("arms-out", include_str!("../../bodies/poses/arms-out.toml")),
+    (
+        "reaching-up",
+        include_str!("../../bodies/poses/reaching-up.toml"),
+    ),
+    ("sitting", include_str!("../../bodies/poses/sitting.toml")),
+    ("stride", include_str!("../../bodies/poses/stride.toml")),
+];
+
 /// Where the first bone stands and how every joint is turned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Posture {

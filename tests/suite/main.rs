@@ -23,6 +23,8 @@
 //! - `postures`: each slip in a posture file gets its message; those that ship are within limits.
 //! - `persons`: the people that ship have bodies as measured, and bad files of people their messages.
 //! - `animation`: an independent reader finds in films what was put into them.
+//! - `robot`: whole bodies of the people that ship: as measured, turned, reaching, posed, in motion, and
+//!   on the command line.
 
 mod bad_files;
 mod bad_input;
@@ -60,3 +62,4 @@ mod skeleton;
 mod woman;
 
 mod animation;
+mod robot;

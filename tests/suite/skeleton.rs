@@ -29,7 +29,7 @@ fn vector(greatest: f64) -> impl Strategy<Value = Vec3> {
 }
 
 /// Any turns at all, also beyond every limit, and the pelvis anywhere.
-fn postures() -> impl Strategy<Value = Posture> {
+pub(crate) fn postures() -> impl Strategy<Value = Posture> {
     let joints = prop::collection::vec(vector(4.0), 21);
     (vector(500.0), vector(4.0), joints).prop_map(|(place, about, joints)| Posture {
         root: Pose::from_parts(place.into(), turn(&about)),

@@ -1,6 +1,6 @@
 //! Every command and option, with its help and its default.
 
-use crate::lab::args::LabWish;
+use crate::{lab::args::LabWish, robot::args::RobotWish};
 use clap::{Args, Parser, Subcommand};
 use soen::output::Map;
 use std::path::PathBuf;
@@ -42,6 +42,10 @@ pub(crate) enum Command {
     /// Each instrument prints its numbers. Exit codes: 0 certified, 2 bad input, 3 stopped before
     /// every shape was certified, 1 anything else, and for `verify` where a comparison fails.
     Lab(LabWish),
+    /// Builds a measured person's body, poses it and prints what a tape finds on it.
+    ///
+    /// Exit codes: 0 done, 2 bad input, 1 anything else.
+    Robot(RobotWish),
     /// Prints the JSON Schema of scene files, for editors.
     Schema,
 }

@@ -11,6 +11,7 @@ mod film;
 mod fit;
 mod lab;
 mod progress;
+mod robot;
 mod schema;
 
 use args::{Arguments, Command};
@@ -28,6 +29,7 @@ fn main() -> ExitCode {
         Command::Check { scene } => check::check(&scene),
         Command::Fabric { wish } => fabric::fabric(&wish),
         Command::Lab(wish) => lab::lab(&wish),
+        Command::Robot(wish) => robot::robot(&wish),
         Command::Schema => schema::schema(),
     };
     done.unwrap_or_else(|failure| {
