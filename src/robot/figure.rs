@@ -159,12 +159,30 @@ impl Robot {
             }
         }
         let standing = self.standing_frames();
+        let placed = |bone: usize, at: &Vec3| {
+            let frame = frames.get(bone).or(standing.get(bone));
+            frame.map_or(*at, |frame| frame.translation.vector + frame.rotation * at)
+        };
         for (ball, muscle) in balls.iter_mut().zip(&self.muscles.all) {
-            if let Some(frame) = frames.get(muscle.bone).or(standing.get(muscle.bone)) {
-                ball.centre = frame.translation.vector + frame.rotation * ball.centre;
-            }
+            ball.centre = placed(muscle.bone, &ball.centre);
         }
+        self.share(&mut balls, placed);
         balls
+    }
+
+    /// Moves muscles that go with two bones to between where either alone would have them.
+    fn share(&self, balls: &mut [Ball], placed: impl Fn(usize, &Vec3) -> Vec3) {
+        let starts = starts(&self.skeleton);
+        for shared in &self.muscles.shared {
+            let muscle = self.muscles.all.get(shared.muscle);
+            let (Some(muscle), Some(ball)) = (muscle, balls.get_mut(shared.muscle)) else {
+                continue;
+            };
+            let start = |bone: usize| starts.get(bone).copied().unwrap_or_default();
+            let at = muscle.at + start(muscle.bone) - start(shared.bone);
+            let other = placed(shared.bone, &at);
+            ball.centre = other + (ball.centre - other) * shared.own;
+        }
     }
 
     /// The muscles in place as parts that cloth meets, named after their bones.

@@ -4,7 +4,7 @@
 use super::{
     bones::Side,
     measurements::Girth,
-    muscles::{Builder, Flesh, Limb},
+    muscles::{Builder, Flesh, Limb, Shared},
     profile::Profile,
 };
 use crate::math::Vec3;
@@ -90,8 +90,24 @@ impl Builder<'_> {
             let between = self.between(ribs, tip, armpit);
             self.string(limb, &[tip, between, armpit]);
         }
+        if let Some(&tip) = balls.last() {
+            self.stretch(armpit, tip, bone, ribs);
+        }
         self.group(Flesh::Shoulder, Some(side), since);
         balls
+    }
+
+    /// Balls from the ribs to the tip of the shoulder, close together while the arm hangs; they part
+    /// as it is raised, and no gap is left below it.
+    fn stretch(&mut self, armpit: usize, tip: usize, bone: usize, ribs: usize) {
+        let [from, to] = [armpit, tip].map(|ball| self.laid(ball));
+        for own in [0.2, 0.4, 0.6, 0.8] {
+            let centre = from.centre + (to.centre - from.centre) * own;
+            let radius = from.radius + (to.radius - from.radius) * own;
+            let muscle = self.ball(bone, centre, radius);
+            let bone = ribs;
+            self.made.shared.push(Shared { muscle, bone, own });
+        }
     }
 
     /// The ball of the shoulder joint passes through the tip of the shoulder.

@@ -63,9 +63,21 @@ pub(super) struct Group {
 pub(super) struct Muscles {
     pub(super) all: Vec<Muscle>,
     pub(super) groups: Vec<Group>,
+    /// Those that go with two bones.
+    pub(super) shared: Vec<Shared>,
     /// Two neighbours (the second twice) or three, and the limb that they are of, one that blends
     /// into the others.
     pub(super) links: Vec<Link>,
+}
+
+/// A muscle that lies between its own bone and another, and stretches when they part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Shared {
+    pub(super) muscle: usize,
+    /// The other bone.
+    pub(super) bone: usize,
+    /// How much it goes with its own bone, 0 to 1.
+    pub(super) own: f64,
 }
 
 /// Neighbours, with flesh between them.

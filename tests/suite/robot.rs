@@ -118,9 +118,11 @@ fn to_turn_any_joint_moves_bones_and_balls_beyond_it_and_no_other() {
                 let bone = &skeleton.bones()[muscle.bone].name;
                 let with_bone =
                     after[muscle.bone].translation.vector + after[muscle.bone].rotation * muscle.at;
+                // What is between ribs and shoulder stretches.
+                let stretches = joint == bone && joint.ends_with("clavicle");
                 if bulges(joint, bone) {
                     assert!((is.centre - with_bone).norm() < 1.0, "{bone} by {joint}");
-                } else {
+                } else if !stretches {
                     assert!((is.centre - with_bone).norm() < 1e-9, "{bone} by {joint}");
                     assert_eq!(is.radius, was.radius);
                 }
@@ -230,7 +232,8 @@ fn all_poses_of_everyone_are_within_limits_and_on_the_ground() {
                 if pose == "stride" {
                     assert!(low < 2.5, "{name}: a foot is {low} cm off the ground");
                 } else {
-                    assert!(low.abs() < 0.01 && heel.abs() < 0.01 && toes.abs() < 0.5);
+                    // Sitting, thighs that close in turn the soles by 2°: 0.1 cm over half a foot.
+                    assert!([low, heel, toes].iter().all(|height| height.abs() < 0.15));
                 }
             }
         }
