@@ -90,17 +90,17 @@ impl Builder<'_> {
             let between = self.between(ribs, tip, armpit);
             self.string(limb, &[tip, between, armpit]);
         }
-        if let Some(&tip) = balls.last() {
-            self.stretch(armpit, tip, bone, ribs);
+        for &ball in balls.iter().skip(2) {
+            self.stretch(armpit, ball, bone, ribs);
         }
         self.group(Flesh::Shoulder, Some(side), since);
         balls
     }
 
-    /// Balls from the ribs to the tip of the shoulder, close together while the arm hangs; they part
-    /// as it is raised, and no gap is left below it.
-    fn stretch(&mut self, armpit: usize, tip: usize, bone: usize, ribs: usize) {
-        let [from, to] = [armpit, tip].map(|ball| self.laid(ball));
+    /// Balls from the ribs to one of the shoulder's, close together while the arm hangs; they part as
+    /// it is raised, and no gap is left below it.
+    fn stretch(&mut self, armpit: usize, shoulder: usize, bone: usize, ribs: usize) {
+        let [from, to] = [armpit, shoulder].map(|ball| self.laid(ball));
         for own in [0.2, 0.4, 0.6, 0.8] {
             let centre = from.centre + (to.centre - from.centre) * own;
             let radius = from.radius + (to.radius - from.radius) * own;
