@@ -21,7 +21,7 @@ pub(super) fn table(report: &Report, written: &[PathBuf]) -> String {
         "{} balls; on the trunk they are at most {:.2} cm below the skin",
         report.balls, report.deepest_trunk_dent_cm
     );
-    let _ = writeln!(text, "\n{:32}{:>10}    {}", report.pose, "angle", "allowed");
+    let _ = writeln!(text, "\n{:32}{:>10}    allowed", report.pose, "angle");
     for joint in &report.joints {
         for angle in &joint.angles {
             let name = format!("{} {}", joint.name, angle.name);
