@@ -17,7 +17,7 @@ const CAPTURES: [&str; 5] = [
 ];
 
 /// How high the lower sole is over 60 instants, least and most [cm], all balls being finite and
-/// as large as they are at rest or a tenth off.
+/// as large as they are at rest to 15 %.
 fn played(robot: &Robot, motion: &Motion) -> [f64; 2] {
     let mut soles = [f64::MAX, f64::MIN];
     for step in 0..60 {

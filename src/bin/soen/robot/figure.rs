@@ -58,7 +58,7 @@ pub(super) fn picture(mut bodies: Vec<BodyMesh>, side: Side) -> Vec<u8> {
         Side::Left => CAMERA - 0.5 * PI,
         Side::Back => CAMERA + PI,
     };
-    let (sine, cosine) = (turned.sin(), turned.cos());
+    let (sine, cosine) = libm::sincos(turned);
     for vertex in bodies.iter_mut().flat_map(|body| &mut body.vertices) {
         let (x, y) = (vertex.x, vertex.y);
         (vertex.x, vertex.y) = (cosine * x - sine * y, sine * x + cosine * y);
@@ -80,11 +80,10 @@ fn ball(name: String, centre: &Vec3, radius: f64) -> BodyMesh {
     let [round, rings] = ROUND;
     let mut vertices = vec![centre + Vec3::z() * radius];
     for ring in 1..rings {
-        let polar = PI * f64::from(ring) / f64::from(rings);
+        let (out, up) = libm::sincos(PI * f64::from(ring) / f64::from(rings));
         for step in 0..round {
-            let azimuth = 2.0 * PI * f64::from(step) / f64::from(round);
-            let out = Vec3::new(azimuth.cos(), azimuth.sin(), 0.0) * polar.sin();
-            vertices.push(centre + (out + Vec3::z() * polar.cos()) * radius);
+            let (sine, cosine) = libm::sincos(2.0 * PI * f64::from(step) / f64::from(round));
+            vertices.push(centre + Vec3::new(out * cosine, out * sine, up) * radius);
         }
     }
     vertices.push(centre - Vec3::z() * radius);
@@ -123,8 +122,8 @@ fn rod(name: String, [start, end]: &[Vec3; 2]) -> BodyMesh {
         ..BodyMesh::default()
     };
     for step in 0..round {
-        let angle = 2.0 * PI * f64::from(step) / f64::from(round);
-        let out = (one * angle.cos() + other * angle.sin()) * BONE;
+        let (sine, cosine) = libm::sincos(2.0 * PI * f64::from(step) / f64::from(round));
+        let out = (one * cosine + other * sine) * BONE;
         rod.vertices.extend([start + out, end + out]);
         let (a, b) = (2 * step, 2 * ((step + 1) % round));
         rod.triangles.extend([[a, b, a + 1], [b, b + 1, a + 1]]);
