@@ -3,7 +3,7 @@
 use super::{
     Friction, Site, Skin,
     touch::Touch,
-    touches::{PLACES, Places, Touches},
+    touches::{PLACES, Touches},
 };
 use crate::{body::Bodies, lattice::Lattice, math::Vec3};
 
@@ -12,7 +12,6 @@ use crate::{body::Bodies, lattice::Lattice, math::Vec3};
 pub struct Footing {
     bodies: Bodies,
     touches: Vec<Touch>,
-    places: Vec<Places>,
 }
 
 impl Footing {
@@ -35,7 +34,7 @@ impl Footing {
     pub fn fits(&self, lattice: &Lattice) -> bool {
         let nodes = lattice.coordinates.len();
         let known = |touch: &Touch| touch.site.nodes.iter().all(|node| (*node as usize) < nodes);
-        self.places.len() == lattice.cells.len() && self.touches.iter().all(known)
+        self.touches.iter().all(known)
     }
 
     /// The footing after the bodies, part by part the same, have moved: what friction holds on to
@@ -55,7 +54,6 @@ impl Footing {
         Self {
             bodies: bodies.clone(),
             touches: self.touches.iter().filter_map(carry).collect(),
-            places: self.places.clone(),
         }
     }
 
@@ -68,25 +66,12 @@ impl Footing {
 }
 
 impl Touches {
-    /// Where features meet each cell and something `held` there. The others are forgotten: under a
-    /// cloth that moves on, they would soon fill all the places that it can remember.
-    fn places_of(&self, held: impl Fn(u32) -> bool) -> Vec<Places> {
-        let cells = self.places().iter().enumerate();
-        let kept = cells.map(|(cell, places)| {
-            let mut kept = *places;
-            for (k, place) in kept.iter_mut().enumerate() {
-                *place = place.filter(|_| held(self.number_of_place(cell, k)));
-            }
-            kept
-        });
-        kept.collect()
-    }
-
-    /// Where the cloth holds on. Friction that has reached its limit lets its anchor follow, so that
-    /// it can turn round (return mapping).
+    /// Where nodes and samples hold on. Friction that has reached its limit lets its anchor follow, so
+    /// that it can turn round (return mapping). Places of features are not among them: under a cloth
+    /// that moves on, they are others.
     #[must_use]
     pub fn footing(&self, at: &[Vec3], bodies: &Bodies) -> Footing {
-        let holds = |touch: &&Touch| touch.friction.limit > 0.0;
+        let holds = |touch: &&Touch| touch.friction.limit > 0.0 && self.is_lasting(touch.number);
         let touches = self.list().iter().filter(holds).map(|touch| {
             let here = touch.site.at(at);
             let slip = touch.slip(&here);
@@ -96,12 +81,9 @@ impl Touches {
                 ..*touch
             }
         });
-        let touches: Vec<Touch> = touches.collect();
-        let held = |number: u32| touches.binary_search_by_key(&number, |t| t.number).is_ok();
         Footing {
             bodies: bodies.clone(),
-            places: self.places_of(held),
-            touches,
+            touches: touches.collect(),
         }
     }
 
@@ -110,8 +92,8 @@ impl Touches {
     /// is held `firm`ly, limits outlast a moment without load.
     pub fn grip(&mut self, friction: f64, firm: bool, at: &[Vec3]) {
         self.rub(friction);
-        self.hold_on(firm);
-        for touch in self.list_mut() {
+        self.firm = firm;
+        for touch in &mut self.touches {
             let here = touch.site.at(at);
             let depth = touch.top - touch.normal.dot(&here);
             let (_, load, _) = touch.skin.answer(depth);
@@ -127,17 +109,24 @@ impl Touches {
         }
     }
 
-    /// Holds on where a cloth of the same lattice did before.
+    /// Whether a site is a node or a sample, which stay what they are.
+    fn is_lasting(&self, number: u32) -> bool {
+        let within = (number as usize).checked_sub(self.clearance.len());
+        within.is_none_or(|k| k % self.sites_of_cell() < self.sites.samples())
+    }
+
+    /// Holds on where a cloth of the same lattice did before; nothing is known of clearances and of
+    /// features.
     pub fn stand_on(&mut self, footing: &Footing) {
-        self.take_up(footing.touches.clone(), footing.places.clone());
+        self.touches.clone_from(&footing.touches);
+        self.places.fill([None; PLACES]);
+        self.clearance.fill((0.0, Vec3::repeat(f64::INFINITY)));
+        self.list_awake(|_| true);
     }
 }
 
-/// Numbers of a touch, and of a place in a cell.
+/// Numbers of a touch.
 const OF_TOUCH: usize = 24;
-const OF_PLACE: usize = 2;
-/// Stands for a place that is not there: places are from 0 to 1.
-const NOWHERE: f64 = -1.0;
 
 impl Footing {
     /// All of it but the bodies, as numbers that are finite: to be kept, and read by
@@ -156,9 +145,6 @@ impl Footing {
             numbers.extend([touch.top, skin.scale, skin.depth]);
             numbers.extend([friction.limit, friction.give]);
         }
-        for place in self.places.iter().flatten() {
-            numbers.extend(place.unwrap_or([NOWHERE; OF_PLACE]));
-        }
         numbers
     }
 
@@ -167,28 +153,14 @@ impl Footing {
     #[must_use]
     pub fn from_numbers(numbers: &[f64], bodies: Bodies, lattice: &Lattice) -> Option<Self> {
         let (count, rest) = numbers.split_first()?;
-        let of_places = lattice.cells.len() * PLACES * OF_PLACE;
-        let of_touches = rest.len().checked_sub(of_places)?;
         let finite = numbers.iter().all(|number| number.is_finite());
-        if !finite || *count != (of_touches / OF_TOUCH) as f64 || of_touches % OF_TOUCH != 0 {
+        let whole = rest.len().is_multiple_of(OF_TOUCH);
+        if !finite || !whole || *count != (rest.len() / OF_TOUCH) as f64 {
             return None;
         }
-        let (touches, places) = rest.split_at(of_touches);
-        let touches: Option<Vec<Touch>> = touches.chunks_exact(OF_TOUCH).map(touch_of).collect();
-        let place = |place: &[f64]| {
-            let place: [f64; OF_PLACE] = place.try_into().ok()?;
-            (place[0] >= 0.0).then_some(place)
-        };
-        let cell = |cell: &[f64]| {
-            let mut places: Places = [None; PLACES];
-            for (known, numbers) in places.iter_mut().zip(cell.chunks_exact(OF_PLACE)) {
-                *known = place(numbers);
-            }
-            places
-        };
+        let touches: Option<Vec<Touch>> = rest.chunks_exact(OF_TOUCH).map(touch_of).collect();
         let footing = Self {
             touches: touches?,
-            places: places.chunks_exact(PLACES * OF_PLACE).map(cell).collect(),
             bodies,
         };
         let parts = footing.bodies.parts().len();

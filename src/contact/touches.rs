@@ -63,23 +63,23 @@ const FORGOTTEN: f64 = 0.05;
 /// All touches, in order of site and part.
 #[derive(Clone, Debug)]
 pub struct Touches {
-    sites: Sites,
+    pub(super) sites: Sites,
     surface: Surface,
     pitch: f64,
-    touches: Vec<Touch>,
+    pub(super) touches: Vec<Touch>,
     /// Whether limits of friction outlast a moment without load.
-    firm: bool,
+    pub(super) firm: bool,
     /// Those that could act, in order.
     awake: Vec<u32>,
     /// For each node, its touches that could act.
     of_node: Vec<Vec<u32>>,
     /// No part was nearer to a node than this [cm] when it stood there.
-    clearance: Vec<(f64, Vec3)>,
+    pub(super) clearance: Vec<(f64, Vec3)>,
     /// Where features meet each cell.
-    places: Vec<Places>,
+    pub(super) places: Vec<Places>,
 }
 
-pub(super) type Places = [Option<[f64; 2]>; PLACES];
+type Places = [Option<[f64; 2]>; PLACES];
 
 /// A site with a surface near it.
 struct Found {
@@ -107,28 +107,6 @@ impl Touches {
         }
     }
 
-    /// Where features meet each cell.
-    pub(super) fn places(&self) -> &[Places] {
-        &self.places
-    }
-
-    /// The number of the site at a place of a cell.
-    pub(super) fn number_of_place(&self, cell: usize, place: usize) -> u32 {
-        let first = self.clearance.len() + cell * self.sites_of_cell();
-        (first + self.sites.samples() + place) as u32
-    }
-
-    /// Goes on with touches, in order, and places that were found before; nothing is known of
-    /// clearances.
-    pub(super) fn take_up(&mut self, touches: Vec<Touch>, places: Vec<Places>) {
-        self.touches = touches;
-        self.places = places;
-        for clearance in &mut self.clearance {
-            *clearance = (0.0, Vec3::repeat(f64::INFINITY));
-        }
-        self.list_awake(|_| true);
-    }
-
     /// Sets Coulomb friction [-] from the next look at the loads on.
     pub fn rub(&mut self, friction: f64) {
         self.surface.friction = friction;
@@ -138,15 +116,6 @@ impl Touches {
     #[must_use]
     pub fn list(&self) -> &[Touch] {
         &self.touches
-    }
-
-    pub(super) fn list_mut(&mut self) -> &mut [Touch] {
-        &mut self.touches
-    }
-
-    /// Sets whether limits of friction outlast a moment without load.
-    pub(super) fn hold_on(&mut self, firm: bool) {
-        self.firm = firm;
     }
 
     /// Looks again which sites are near a body: nodes that could touch after a move of `way` [cm],
@@ -332,12 +301,12 @@ impl Touches {
     }
 
     /// Samples and remembered places of a cell.
-    fn sites_of_cell(&self) -> usize {
+    pub(super) fn sites_of_cell(&self) -> usize {
         self.sites.samples() + PLACES
     }
 
     /// Lists the touches that could act.
-    fn list_awake(&mut self, is_awake: impl Fn(usize) -> bool) {
+    pub(super) fn list_awake(&mut self, is_awake: impl Fn(usize) -> bool) {
         self.awake.clear();
         for list in &mut self.of_node {
             list.clear();

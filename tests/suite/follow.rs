@@ -4,6 +4,7 @@
 use crate::specimen::scene;
 use soen::{
     body::{Bodies, Part, Shape},
+    contact::Footing,
     math::{Pose, Vec3, turn},
     solver::{Problem, Progress, Settings, Settled, Unsolvable, go_on, settle},
 };
@@ -171,4 +172,41 @@ fn cloth_stays_on_a_board_that_is_tilted_up_to_the_angle_of_friction() {
     let gone = tilted(&mut problem, 0.98 * limit, 1.02 * limit, &held, 400);
     let way = slid(&gone, 1.02 * limit);
     assert!(way > 0.5, "slid by {way} cm only beyond the angle");
+}
+
+/// What a run keeps of a drape is enough to go on from it to the same bits.
+#[test]
+fn a_footing_kept_as_numbers_goes_on_to_the_same_bits() {
+    let mut problem = over_ball();
+    let first = rest(&problem);
+    let numbers = first.footing.numbers();
+    let read =
+        |numbers: &[f64]| Footing::from_numbers(numbers, problem.bodies.clone(), &first.lattice);
+    let kept = read(&numbers).unwrap();
+    for cut in 0..numbers.len() {
+        assert!(read(&numbers[..cut]).is_none(), "cut at {cut}");
+    }
+    let mut wrong = numbers.clone();
+    wrong[1] = f64::NAN;
+    assert!(read(&wrong).is_none());
+    problem.bodies = ball(moved(0.05));
+    let from = |footing: &Footing| {
+        let mut left = 30;
+        let last = go_on(
+            &problem,
+            &[],
+            (&first.positions, footing),
+            &SETTINGS,
+            &mut |_| {
+                left -= 1;
+                left > 0
+            },
+        );
+        let last = last.unwrap().positions;
+        last.iter()
+            .flatten()
+            .map(|x| x.to_bits())
+            .collect::<Vec<_>>()
+    };
+    assert!(from(&first.footing) == from(&kept));
 }

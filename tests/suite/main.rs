@@ -22,6 +22,7 @@
 //! - `reach`: hands and feet go to where they can, within limits, or say by how far they do not.
 //! - `postures`: each slip in a posture file gets its message; those that ship are within limits.
 //! - `persons`: the people that ship have bodies as measured, and bad files of people their messages.
+//! - `animate`: frame after frame is certified, and a run that was ended goes on to the same bits.
 //! - `animation`: an independent reader finds in films what was put into them.
 //! - `robot`: whole bodies of the people that ship: as measured, turned, reaching, posed, in motion, and
 //!   on the command line.
@@ -61,5 +62,6 @@ mod reach;
 mod skeleton;
 mod woman;
 
+mod animate;
 mod animation;
 mod robot;

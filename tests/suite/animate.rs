@@ -1,0 +1,86 @@
+//! `soen animate`: as many frames as asked, each with its proof; ended and gone on, the same bits.
+
+use crate::trial::Trial;
+use gltf::animation::util::ReadOutputs;
+use serde_json::Value;
+use std::{fs, path::Path};
+
+/// A kerchief on a child's head who runs: small enough to be quick, and nothing pinches it.
+const SCENE: &str = "[cloth]\nfabric = \"d\"\nsize_cm = [16, 16]\nspacing_cm = 2\n\
+    centre_cm = [0, 0, 124]\n[contact]\nfriction = 0.5\n\
+    [[body]]\nname = \"child\"\nrobot = { person = \"child-120\", motion = \"walk\" }\n\
+    [animation]\nframes = 3\nframes_per_s = 12.5\n";
+
+fn state(trial: &Trial, out: &str, frame: usize) -> Vec<u8> {
+    fs::read(trial.path().join(format!("{out}/frame-{frame:04}.state"))).unwrap()
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
+}
+
+#[test]
+fn a_kerchief_goes_along_and_a_run_that_was_ended_goes_on_to_the_same_bits() {
+    let trial = Trial::new();
+    trial.put("run.toml", SCENE.as_bytes());
+    let said = trial.run(&["animate", "run.toml", "--out", "one"]);
+    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    let report = json(&trial.path().join("one/report.json"));
+    assert_eq!(report["frames_certified"], 3);
+    assert!(report["deepest_cm"].as_f64().unwrap() <= 0.05);
+    let glb = gltf::Gltf::open(trial.path().join("one/animation.glb")).unwrap();
+    let blob = glb.blob.as_deref();
+    let animation = glb.animations().next().unwrap();
+    let weights = animation.channels().find_map(|channel| {
+        let reader = channel.reader(|_| blob);
+        let times: Vec<f32> = reader.read_inputs()?.collect();
+        matches!(reader.read_outputs()?, ReadOutputs::MorphTargetWeights(_)).then_some(times)
+    });
+    assert_eq!(weights.unwrap(), [0.0, 0.08, 0.16]);
+
+    // As if it had been ended within the second frame.
+    fs::create_dir(trial.path().join("two")).unwrap();
+    for name in ["dressed.state", "frame-0000.state"] {
+        let [from, to] = ["one", "two"].map(|out| trial.path().join(out).join(name));
+        fs::copy(from, to).unwrap();
+    }
+    trial.put("two/frame-0001.state", &state(&trial, "one", 1)[..1000]);
+    let said = trial.run(&["animate", "run.toml", "--out", "two", "--threads", "1"]);
+    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    for frame in 0..3 {
+        assert!(
+            state(&trial, "one", frame) == state(&trial, "two", frame),
+            "frame {frame}"
+        );
+    }
+}
+
+#[test]
+fn what_cannot_be_animated_is_refused() {
+    let trial = Trial::new();
+    let still = SCENE.replace(", motion = \"walk\"", "");
+    let (frameless, _) = SCENE.split_once("[animation]").unwrap();
+    let unknown = SCENE.replace("\"walk\"", "\"wlak\"");
+    let slow = SCENE.replace("12.5", "0");
+    let rows = [
+        (still.as_str(), "", "nobody moves in this scene"),
+        (frameless, "", "the scene has no [animation]"),
+        (&unknown, "", "walk"),
+        (&slow, "", "allowed: 0.1 to 10000 frames per second"),
+        (
+            SCENE,
+            "--frames=2..9",
+            "allowed: A..B with A below B, up to 0..3",
+        ),
+        (SCENE, "--frames=2", "allowed: A..B, two whole numbers"),
+    ];
+    for (scene, option, message) in rows {
+        trial.put("run.toml", scene.as_bytes());
+        let mut arguments = vec!["animate", "run.toml", "--out", "out"];
+        arguments.extend(Some(option).filter(|option| !option.is_empty()));
+        let said = trial.run(&arguments);
+        assert_eq!(said.code, 2, "{}{}", said.out, said.err);
+        assert!(said.err.contains(message), "{}", said.err);
+        assert!(trial.kept());
+    }
+}
