@@ -109,6 +109,11 @@ impl Touches {
         }
     }
 
+    /// Forgets where features met the cells, so that the next look finds those that do now.
+    pub fn forget_features(&mut self) {
+        self.places.fill([None; PLACES]);
+    }
+
     /// Whether a site is a node or a sample, which stay what they are.
     fn is_lasting(&self, number: u32) -> bool {
         let within = (number as usize).checked_sub(self.clearance.len());
@@ -119,7 +124,7 @@ impl Touches {
     /// features.
     pub fn stand_on(&mut self, footing: &Footing) {
         self.touches.clone_from(&footing.touches);
-        self.places.fill([None; PLACES]);
+        self.forget_features();
         self.clearance.fill((0.0, Vec3::repeat(f64::INFINITY)));
         self.list_awake(|_| true);
     }

@@ -185,6 +185,10 @@ impl Run<'_> {
                 joint.finish(level, step.asked);
             }
             standing.go_to(&level.at, &step, level.touches.list().is_empty());
+            if !self.lands && standing.settled_for > 0 && standing.settled_for % PATIENCE == 0 {
+                // At a standstill that its certificate does not bear out: features are sought anew.
+                level.touches.forget_features();
+            }
             if !gripped && self.is_settled(level, case, &mut standing, round) {
                 let Some(way) = joint.way_out(level) else {
                     break;

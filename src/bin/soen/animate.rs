@@ -124,10 +124,13 @@ impl Work<'_> {
         let Some(mut last) = self.dressed()? else {
             return Ok(shots);
         };
-        let mut before = -ENTRANCE;
+        let (mut before, mut goes_on) = (-ENTRANCE, true);
         for frame in 0..end {
             let time = self.frames.time(frame);
-            let shot = match self.kept(&self.path(frame)) {
+            // What followed a frame that is made anew followed another.
+            let kept = self.kept(&self.path(frame)).filter(|_| goes_on);
+            goes_on = kept.is_some();
+            let shot = match kept {
                 Some(shot) => shot,
                 None => match self.make(frame, [before, time], &last)? {
                     Some(shot) => shot,
