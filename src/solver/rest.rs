@@ -185,7 +185,10 @@ impl Run<'_> {
                 joint.finish(level, step.asked);
             }
             standing.go_to(&level.at, &step, level.touches.list().is_empty());
-            if !self.lands && standing.settled_for > 0 && standing.settled_for % PATIENCE == 0 {
+            if !self.lands
+                && standing.settled_for > 0
+                && standing.settled_for.is_multiple_of(PATIENCE)
+            {
                 // At a standstill that its certificate does not bear out: features are sought anew.
                 level.touches.forget_features();
             }
