@@ -48,8 +48,8 @@
 //! Below, in the order to read it in; a module names only modules above it, which a test keeps
 //! true (`tests/suite/layers.rs`). [`scene::read`] gives a [`solver::Problem`], [`solver::settle`]
 //! takes it to a [`solver::Settled`], and [`output`] makes files of that; [`scene::measured`] finds a
-//! [`fabric::Fabric`] in what a laboratory measured. The command line is `src/bin/soen`, the first
-//! user of this library.
+//! [`fabric::Fabric`] in what a laboratory measured; [`play::next`] goes on to the next frame of a
+//! motion. The command line is `src/bin/soen`, the first user of this library.
 //!
 //! # What always holds
 //! - A drape that did not converge is a value with its certificate, not an `Err`.
@@ -58,7 +58,8 @@
 //! - `certificate` shares no sum, list or derivative with `solver`.
 //!
 //! And what is always absent:
-//! - time. There are no velocities and no masses, only weights: this is statics;
+//! - time, but in `motion` and `play`, which pose bodies by it. There are no velocities and no masses,
+//!   only weights: this is statics;
 //! - a body inside `fabric` or `forces`, a material inside `lattice`, a scene inside `solver`;
 //! - files outside `scene` and `output`, and clocks, arguments and printing outside the command
 //!   line: the rest compiles to wasm32;
