@@ -23,6 +23,12 @@ pub fn turn(about: &Vec3) -> Rotation {
     Rotation::new_normalize(quaternion)
 }
 
+/// Turns about the axes of space, x, then y, then z [rad].
+#[must_use]
+pub fn turn_in_order([x, y, z]: [f64; 3]) -> Rotation {
+    turn(&(Vec3::z() * z)) * turn(&(Vec3::y() * y)) * turn(&(Vec3::x() * x))
+}
+
 /// The axis and angle of a turn: its direction is the axis, its length the angle [rad], at most π.
 #[must_use]
 pub fn turned(rotation: &Rotation) -> Vec3 {

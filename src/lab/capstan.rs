@@ -12,9 +12,9 @@ use super::{
 use crate::{
     body::{Bodies, Part, Shape},
     fabric::{Fabric, Yarn},
-    math::{Pose, Vec3},
+    math::{Pose, Vec3, turn},
 };
-use nalgebra::{Translation3, UnitQuaternion};
+use nalgebra::Translation3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A belt, one cell wide, over a cylinder.
@@ -141,7 +141,7 @@ impl Capstan {
             radius: self.radius - 0.5 * THICKNESS,
             height: 20.0 * self.pitch.max(1.0),
         };
-        let level = UnitQuaternion::from_axis_angle(&Vec3::x_axis(), FRAC_PI_2);
+        let level = turn(&(Vec3::x() * FRAC_PI_2));
         let pose = Pose::from_parts(Translation3::identity(), level);
         Ok(Part::new("cylinder".into(), &shape, pose)?)
     }

@@ -9,9 +9,9 @@ use crate::{
     body::{Bodies, Part, Shape},
     fabric::Fabric,
     lattice::Outline,
-    math::{Pose, Vec3},
+    math::{Pose, Vec3, turn},
 };
-use nalgebra::{Translation3, UnitQuaternion};
+use nalgebra::Translation3;
 
 /// A square of cloth, and the friction of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,7 +76,7 @@ impl Slope {
         let plane = Shape::Cuboid {
             size: Vec3::new(wide, wide, THICK),
         };
-        let turn = UnitQuaternion::from_axis_angle(&Vec3::y_axis(), degrees.to_radians());
+        let turn = turn(&(Vec3::y() * degrees.to_radians()));
         let down = turn * Vec3::new(0.0, 0.0, -0.5 * THICK);
         let pose = Pose::from_parts(Translation3::from(down), turn);
         let outline = Outline::rectangle(self.size, self.size)?;

@@ -3,7 +3,7 @@
 use super::{
     Bvh, Mapping, Motion, RetargetError,
     capture::{Actor, Stance},
-    retarget::{Follower, Joints, Tip, end_of, leg, stand},
+    retarget::{Follower, Joints, Tip, leg},
 };
 use crate::{
     math::{Pose, Vec3},
@@ -45,15 +45,16 @@ pub fn errors(
     let actor = Actor::find(source, mapping)?;
     let follower = Follower::new(&actor, source, mapping, skeleton)?;
     let unturned = actor.unturned();
-    let standing = stand(skeleton, &Posture::standing(skeleton));
+    let standing = skeleton.stand(&Posture::standing(skeleton));
     let limbs = Limbs::find(&actor, source, mapping, skeleton, &follower)?;
     let scales = limbs.scales(&unturned, &standing, skeleton, &follower)?;
-    let ends = (0..standing.len()).map(|bone| end_of(bone, &standing, skeleton).z);
+    let bones = skeleton.bones().iter().zip(&standing);
+    let ends = bones.map(|(bone, pose)| bone.end(pose).z);
     let stature = ends.fold(f64::MIN_POSITIVE, f64::max);
     let mut sum = [0.0; 4];
     let mut count = 0.0;
     for (stance, key) in actor.frames().zip(motion.keys()) {
-        let poses = stand(skeleton, &key.posture);
+        let poses = skeleton.stand(&key.posture);
         let hips = [follower.hips(&stance), key.posture.root.translation.vector];
         for side in 0..2 {
             for (sum, off) in sum

@@ -98,16 +98,16 @@ pub fn retarget(
         let ends = ankles
             .iter()
             .flatten()
-            .map(|bone| end_of(*bone, pose, skeleton).z);
+            .filter_map(|bone| Some(skeleton.bones().get(*bone)?.end(pose.get(*bone)?).z));
         ends.fold(f64::INFINITY, f64::min)
     };
-    let standing = ankle(&stand(skeleton, &Posture::standing(skeleton)));
+    let standing = ankle(&skeleton.stand(&Posture::standing(skeleton)));
     let mut lowest = f64::INFINITY;
     let mut keys: Vec<Key> = Vec::with_capacity(source.frames.len());
     for (index, stance) in actor.frames().enumerate() {
         let mut posture = follower.posture(&stance, skeleton);
         posture.root.translation.vector *= scale;
-        lowest = lowest.min(ankle(&stand(skeleton, &posture)));
+        lowest = lowest.min(ankle(&skeleton.stand(&posture)));
         let time = index as f64 * source.frame_time;
         keys.push(Key { time, posture });
     }
@@ -427,33 +427,4 @@ pub fn leg(skeleton: &Skeleton) -> Result<f64, RetargetError> {
     let right = length("right_thigh")? + length("right_shank")?;
     let left = length("left_thigh")? + length("left_shank")?;
     Ok((right + left) / 2.0)
-}
-
-/// Where every bone is in a posture: turn after turn, parents first.
-pub(super) fn stand(skeleton: &Skeleton, posture: &Posture) -> Vec<Pose> {
-    let mut poses: Vec<Pose> = Vec::with_capacity(skeleton.bones().len());
-    for (bone, turned) in skeleton.bones().iter().zip(&posture.joints) {
-        let above = bone
-            .parent
-            .and_then(|parent| Some((parent, *poses.get(parent)?)));
-        let pose = above.map_or(posture.root, |(parent, pose)| {
-            let place = match bone.at_base {
-                true => pose.translation.vector,
-                false => end_of(parent, &poses, skeleton),
-            };
-            Pose::from_parts(place.into(), pose.rotation * turned)
-        });
-        poses.push(pose);
-    }
-    poses
-}
-
-/// Where a bone ends [cm].
-pub(super) fn end_of(bone: usize, poses: &[Pose], skeleton: &Skeleton) -> Vec3 {
-    let pose = poses.get(bone).copied().unwrap_or_default();
-    let vector = skeleton
-        .bones()
-        .get(bone)
-        .map_or(Vec3::zeros(), |bone| bone.vector);
-    pose.translation.vector + pose.rotation * vector
 }

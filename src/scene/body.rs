@@ -8,10 +8,9 @@ use super::{
 };
 use crate::{
     body::{Format, Inspection, Mesh, Part, Shape, Unit, Up},
-    math::{Pose, Vec3},
+    math::{Pose, Vec3, turn_in_order},
     play::{Cast, Member},
 };
-use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use std::path::{Path, PathBuf};
 
 /// Body files within body files: enough for a hand on an arm on a trunk, too few for a ring.
@@ -174,23 +173,9 @@ fn pose(at: &At<'_>, body: &BodyTable) -> Result<Pose, SceneError> {
     let place = body.at_cm.map_or([0.0; 3], |Numbers(place)| place);
     let place = at.key("at_cm").numbers(place, &PLACE)?;
     let turns = body.rotate_deg.map_or([0.0; 3], |Numbers(turns)| turns);
-    let [x, y, z] = at.key("rotate_deg").numbers(turns, &TURN)?;
-    let turn = about(2, z) * about(1, y) * about(0, x);
-    Ok(Pose::from_parts(
-        Translation3::from(Vec3::from(place)),
-        turn,
-    ))
-}
-
-/// A turn about an axis of space [degrees]; libm, so that it has the same bits everywhere.
-fn about(axis: usize, degrees: f64) -> UnitQuaternion<f64> {
-    let half = 0.5 * degrees.to_radians();
-    let mut imaginary = [0.0; 3];
-    if let Some(component) = imaginary.get_mut(axis) {
-        *component = libm::sin(half);
-    }
-    let [i, j, k] = imaginary;
-    UnitQuaternion::new_unchecked(Quaternion::new(libm::cos(half), i, j, k))
+    let turns = at.key("rotate_deg").numbers(turns, &TURN)?;
+    let turn = turn_in_order(turns.map(f64::to_radians));
+    Ok(Pose::from_parts(Vec3::from(place).into(), turn))
 }
 
 fn shape(at: &At<'_>, body: &BodyTable) -> Result<Shape, SceneError> {

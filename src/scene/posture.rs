@@ -8,7 +8,7 @@ use super::{
     motion::document,
 };
 use crate::{
-    math::{Pose, Rotation, Vec3, turn},
+    math::{Pose, Rotation, Vec3, turn_in_order},
     skeleton::{Bone, Joint, POSES, Posture, Skeleton},
 };
 use core::f64::consts::PI;
@@ -91,8 +91,7 @@ fn root(at: &At<'_>, table: &RootTable, base: &Vec3) -> Result<Pose, SceneError>
     let moves = at.key("move_cm").numbers(moves, &PLACE)?;
     let turns = table.turn_deg.map_or([0.0; 3], |Numbers(turns)| turns);
     let turns = at.key("turn_deg").numbers(turns, &TURN)?;
-    let [x, y, z] = turns.map(f64::to_radians);
-    let turn = turn(&(Vec3::z() * z)) * turn(&(Vec3::y() * y)) * turn(&(Vec3::x() * x));
+    let turn = turn_in_order(turns.map(f64::to_radians));
     let origin = base + Vec3::from(moves);
     Ok(Pose::from_parts(origin.into(), turn))
 }

@@ -81,26 +81,12 @@ fn wanted(wish: &AnimateWish, frames: &Frames) -> Result<(usize, usize), Failure
     }
 }
 
-/// What all frames stand on: another scene, cloth or person has another digest.
+/// What all frames stand on: another scene, cloth, person or motion has another digest.
 fn digest(scene: &Scene, frames: &Frames) -> u64 {
-    let problem = &scene.problem;
-    let of_cast = [-ENTRANCE, 0.0, frames.time(1), frames.time(frames.count)].map(|time| {
-        scene
-            .cast
-            .bodies(time)
-            .map(|bodies| format!("{:?}", bodies.places()))
-    });
+    let (problem, cast) = (&scene.problem, &scene.cast);
     let whole = format!(
-        "{:?} {:?} {:?} {:?} {} {} {:?} {:?} {} {:?} {} {of_cast:?}",
-        problem.fabric,
-        problem.piece,
-        problem.placement,
-        problem.holds,
-        problem.friction,
-        problem.thickness,
-        problem.laws,
-        problem.forces,
-        problem.seed,
+        "{} {problem:?} {cast:?} {} {}",
+        env!("CARGO_PKG_VERSION"),
         scene.settings.tolerance,
         frames.rate,
     );

@@ -2,7 +2,7 @@
 
 use crate::{args::AnimateWish, failure::Failure};
 use soen::{
-    body::{Bodies, PartError},
+    body::Bodies,
     lattice::Lattice,
     math::Vec3,
     output::{self, BodyMesh, ClothMesh, Frame, Image, Shot, View},
@@ -111,22 +111,22 @@ impl<'a> Film<'a> {
 
     /// A picture of each frame; the camera goes with the first actor.
     fn pictures(&self) -> Result<Vec<Image>, Failure> {
-        let refused = |error: PartError| Failure::Input(error.to_string());
-        let mut meshes = Vec::new();
+        let mut bodies = Vec::new();
         for (_, time, _) in &self.takes {
-            let bodies = self.scene.cast.bodies(*time).map_err(refused)?;
-            meshes.push(output::body_meshes(&bodies));
+            let there = self.scene.cast.bodies(*time);
+            bodies.push(there.map_err(|error| Failure::Input(error.to_string()))?);
         }
-        let points = |(take, bodies): (&Take<'_>, &Vec<BodyMesh>)| {
-            let bodies = bodies.iter().flat_map(|body| body.vertices.clone());
-            let cloth = take.2.positions.iter().copied();
-            cloth.chain(bodies).collect::<Vec<Vec3>>()
+        let shown = |(take, bodies): (&Take<'_>, &Bodies)| {
+            let corners = bodies
+                .extent()
+                .into_iter()
+                .flat_map(|(low, high)| [low, high]);
+            corners.chain(take.2.positions.iter().copied()).collect()
         };
-        let shown: Vec<Vec<Vec3>> = self.takes.iter().zip(&meshes).map(points).collect();
+        let shown: Vec<Vec<Vec3>> = self.takes.iter().zip(&bodies).map(shown).collect();
         let middles: Vec<Vec3> = self.takes.iter().map(|take| self.middle(take.1)).collect();
-        let figures = shown.iter().map(Vec::as_slice).zip(middles);
-        let frames = Frame::following(figures);
-        let takes = self.takes.iter().zip(&meshes).enumerate();
+        let frames = Frame::following(shown.iter().map(Vec::as_slice).zip(middles));
+        let takes = self.takes.iter().zip(&bodies).enumerate();
         let pictures = takes.map(|(index, ((.., shot), bodies))| {
             let cloth = ClothMesh {
                 lattice: self.lattice,
@@ -139,7 +139,7 @@ impl<'a> Film<'a> {
                 frame: frames.get(index).copied(),
                 ..View::default()
             };
-            output::picture_pixels(&cloth, bodies, &view)
+            output::picture_pixels(&cloth, &output::body_meshes(bodies), &view)
         });
         Ok(pictures.collect())
     }

@@ -2,7 +2,7 @@
 
 use super::format::{KeyTable, MotionFile};
 use crate::{
-    math::{Pose, Rotation, Vec3, turn},
+    math::{Pose, Rotation, Vec3, turn_in_order},
     motion::{InvalidMotion, Key, Motion, leg},
     scene::{
         complaint::nearest,
@@ -79,10 +79,9 @@ fn posture(
     let root = at.key("root");
     let moved = numbers(&root.key("move_cm"), table.root.move_cm, &LENGTH)? * scale;
     let turns = numbers(&root.key("turn_deg"), table.root.turn_deg, &TURN)?;
-    let about = |axis: Vec3| turn(&axis.component_mul(&turns.map(f64::to_radians)));
     posture.root = Pose::from_parts(
         (posture.root.translation.vector + moved).into(),
-        about(Vec3::z()) * about(Vec3::y()) * about(Vec3::x()),
+        turn_in_order(turns.map(f64::to_radians).into()),
     );
     let at = at.key("joint");
     for (name, angles) in &table.joint {
