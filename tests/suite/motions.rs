@@ -8,4 +8,3 @@
 mod bad;
 mod captures;
 mod gait;
-mod woman;

@@ -2,9 +2,10 @@
 //! 0.806 of stature, hip joints at 81 cm, 17 cm apart), limits of Norkin & White's and the AAOS's
 //! tables, those of the trunk and the neck shared out over their two joints.
 
+use crate::skeleton::by_hand;
 use soen::{
     math::Vec3,
-    skeleton::{Bone, Joint, Skeleton},
+    skeleton::{Bone, Joint, Posture, Skeleton},
 };
 
 type Limits = [[f64; 2]; 3];
@@ -120,4 +121,11 @@ fn joint_of(name: String, angles: [&'static str; 3], axes: [Vec3; 3], limits: Li
         axes,
         limits: limits.map(|pair| pair.map(f64::to_radians)),
     }
+}
+
+/// Where a bone starts and ends in a posture [cm].
+pub(crate) fn ends(skeleton: &Skeleton, posture: &Posture, bone: &str) -> [Vec3; 2] {
+    let index = skeleton.bone(bone).unwrap();
+    let pose = by_hand(skeleton, posture)[index];
+    [pose.translation.vector, skeleton.bones()[index].end(&pose)]
 }

@@ -32,7 +32,7 @@ pub(crate) fn animate(wish: &AnimateWish) -> Result<ExitCode, Failure> {
     let frames = frames(&scene)?;
     let wanted = wanted(wish, &frames)?;
     try_folder(&wish.out)?;
-    set_threads(wish.threads)?;
+    set_threads(wish.run.threads)?;
     let stop = stopped_by_ctrl_c()?;
     let lattice = solver::prepare(&scene.problem).map_err(|error| scene.refusal(error))?;
     let work = Work {
@@ -46,7 +46,7 @@ pub(crate) fn animate(wish: &AnimateWish) -> Result<ExitCode, Failure> {
     let shots = work.shoot(wanted.1)?;
     let film = Film::new(&scene, &lattice, &frames, &shots, wanted);
     film.write(wish)?;
-    say(&if wish.json {
+    say(&if wish.run.json {
         film.report()
     } else {
         film.table(&wish.out)
@@ -169,7 +169,7 @@ impl Work<'_> {
         name: &str,
         run: impl FnOnce(&mut dyn FnMut(&solver::Progress) -> bool) -> Result<Settled, Unplayable>,
     ) -> Result<Settled, Failure> {
-        let limit = self.wish.max_seconds.unwrap_or(self.scene.max_seconds);
+        let limit = self.wish.run.max_seconds.unwrap_or(self.scene.max_seconds);
         let begin = Instant::now();
         let mut teller = Teller::of(name);
         let settled = run(&mut |progress| {

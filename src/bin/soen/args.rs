@@ -61,15 +61,8 @@ pub(crate) struct Wish {
     /// time. The fine drape starts from this one.
     #[arg(long)]
     pub(crate) preview: bool,
-    /// Threads; all cores where not given. The result is the same, bit for bit.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
-    /// Prints the report alone on standard output.
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Stops after this time, in place of the scene's max_seconds.
-    #[arg(long, value_name = "S", value_parser = seconds)]
-    pub(crate) max_seconds: Option<f64>,
+    #[command(flatten)]
+    pub(crate) run: RunWish,
     /// Writes N shapes between start and rest as frame-0001.obj and .png, …
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=9999))]
     pub(crate) frames: u16,
@@ -78,6 +71,20 @@ pub(crate) struct Wish {
     /// to the nearest body). May be given more than once.
     #[arg(long = "map", value_name = "NAME", value_parser = map)]
     pub(crate) maps: Vec<Map>,
+}
+
+/// How a long run goes.
+#[derive(Args, Debug)]
+pub(crate) struct RunWish {
+    /// Threads; all cores where not given. The result is the same, bit for bit.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Prints the report alone on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Stops after this time, an animation each of its frames, in place of the scene's max_seconds.
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub(crate) max_seconds: Option<f64>,
 }
 
 #[derive(Args, Debug)]
@@ -93,15 +100,8 @@ pub(crate) struct AnimateWish {
     /// Also writes a picture of each frame, frame-0000.png, …, and all of them as animation.png.
     #[arg(long)]
     pub(crate) pictures: bool,
-    /// Threads; all cores where not given. The result is the same, bit for bit.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
-    /// Prints the report alone on standard output.
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Stops each frame after this time, in place of the scene's max_seconds.
-    #[arg(long, value_name = "S", value_parser = seconds)]
-    pub(crate) max_seconds: Option<f64>,
+    #[command(flatten)]
+    pub(crate) run: RunWish,
 }
 
 #[derive(Debug, Subcommand)]

@@ -26,7 +26,7 @@ use std::{
 pub(crate) fn drape(wish: &Wish) -> Result<ExitCode, Failure> {
     let mut scene = scene::read(&wish.scene)?;
     try_folder(&wish.out)?;
-    let threads = set_threads(wish.threads)?;
+    let threads = set_threads(wish.run.threads)?;
     let stop = stopped_by_ctrl_c()?;
     let begin = Instant::now();
     if wish.preview {
@@ -42,7 +42,7 @@ pub(crate) fn drape(wish: &Wish) -> Result<ExitCode, Failure> {
     };
     let report = output::report(&settled, &run);
     Files::new(wish, &scene, &settled).write(&report)?;
-    say(&if wish.json {
+    say(&if wish.run.json {
         report
     } else {
         certificate(&settled, &run, &wish.out)
@@ -112,7 +112,7 @@ fn settle(
     begin: Instant,
     stop: &AtomicBool,
 ) -> Result<Settled, Failure> {
-    let limit = wish.max_seconds.unwrap_or(scene.max_seconds);
+    let limit = wish.run.max_seconds.unwrap_or(scene.max_seconds);
     let settings = Settings {
         frames: wish.frames.into(),
         ..scene.settings

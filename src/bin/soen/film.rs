@@ -109,6 +109,14 @@ impl<'a> Film<'a> {
         output::body_meshes(&Bodies::new(still.collect()))
     }
 
+    /// The bodies' surfaces at a time [s].
+    fn shown(&self, time: f64) -> Vec<BodyMesh> {
+        let actors = self.scene.cast.actors().flat_map(|actor| {
+            output::muscle_meshes(actor.robot(), &actor.posture(time), &actor.frames(time))
+        });
+        self.still().into_iter().chain(actors).collect()
+    }
+
     /// A picture of each frame; the camera goes with the first actor.
     fn pictures(&self) -> Result<Vec<Image>, Failure> {
         let mut bodies = Vec::new();
@@ -126,21 +134,24 @@ impl<'a> Film<'a> {
         let shown: Vec<Vec<Vec3>> = self.takes.iter().zip(&bodies).map(shown).collect();
         let middles: Vec<Vec3> = self.takes.iter().map(|take| self.middle(take.1)).collect();
         let frames = Frame::following(shown.iter().map(Vec::as_slice).zip(middles));
-        let takes = self.takes.iter().zip(&bodies).enumerate();
-        let pictures = takes.map(|(index, ((.., shot), bodies))| {
-            let cloth = ClothMesh {
-                lattice: self.lattice,
-                positions: &shot.positions,
-            };
-            let view = View {
-                caption: (!shot.converged).then_some(NOT_AT_REST),
-                width: PICTURE[0],
-                height: PICTURE[1],
-                frame: frames.get(index).copied(),
-                ..View::default()
-            };
-            output::picture_pixels(&cloth, &output::body_meshes(bodies), &view)
-        });
+        let pictures = self
+            .takes
+            .iter()
+            .enumerate()
+            .map(|(index, (_, time, shot))| {
+                let cloth = ClothMesh {
+                    lattice: self.lattice,
+                    positions: &shot.positions,
+                };
+                let view = View {
+                    caption: (!shot.converged).then_some(NOT_AT_REST),
+                    width: PICTURE[0],
+                    height: PICTURE[1],
+                    frame: frames.get(index).copied(),
+                    ..View::default()
+                };
+                output::picture_pixels(&cloth, &self.shown(*time), &view)
+            });
         Ok(pictures.collect())
     }
 

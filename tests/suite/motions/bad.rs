@@ -1,6 +1,6 @@
 //! One slip each in a motion that is right otherwise, and the message that it gets.
 
-use super::woman::woman;
+use crate::woman::woman;
 use soen::scene;
 use std::fs;
 

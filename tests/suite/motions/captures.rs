@@ -1,6 +1,6 @@
 //! Motion capture: the actor's limbs point where ours do, whatever pose he is built in.
 
-use super::woman::{reach, woman};
+use crate::woman::{ends, woman};
 use nalgebra::{Translation3, Unit};
 use soen::{
     math::{Pose, Rotation, Vec3},
@@ -77,8 +77,8 @@ fn every_shared_capture_plays_at_any_rate() {
         let motion = scene::motion(&path, &woman).unwrap();
         for step in 0..=100 {
             let posture = motion.at(motion.duration() * f64::from(step) / 100.0);
-            let [_, toe] = reach(&woman, &posture, "left_foot");
-            let [_, top] = reach(&woman, &posture, "head");
+            let [_, toe] = ends(&woman, &posture, "left_foot");
+            let [_, top] = ends(&woman, &posture, "head");
             assert!(top.z > 80.0 && top.z < 240.0, "{file}: {top}");
             assert!(toe.z > -8.0 && toe.z < 100.0, "{file}: {toe}");
         }
@@ -147,7 +147,7 @@ fn the_lower_ankle_is_as_high_as_the_actors() {
             .map(|frame| lower(heights(&source, frame, up, ankles)));
         let theirs: Vec<f64> = theirs.collect();
         let ours = motion.keys().iter().map(|key| {
-            let height = |foot| reach(&woman, &key.posture, foot)[0].z;
+            let height = |foot| ends(&woman, &key.posture, foot)[0].z;
             lower([height("right_foot"), height("left_foot")])
         });
         let ours: Vec<f64> = ours.collect();

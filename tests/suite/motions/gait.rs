@@ -1,6 +1,6 @@
 //! The motions that ship: what a foot does on the floor, what limits allow, what falls freely.
 
-use super::woman::{reach, woman};
+use crate::woman::{ends, woman};
 use soen::{
     math::{Vec3, turn},
     motion::{MOTIONS, Motion},
@@ -24,12 +24,12 @@ fn instants(motion: &Motion, count: usize) -> impl Iterator<Item = f64> {
 
 /// The toe's tip.
 fn toe(posture: &Posture, side: &str) -> Vec3 {
-    reach(&woman(), posture, &format!("{side}_foot"))[1]
+    ends(&woman(), posture, &format!("{side}_foot"))[1]
 }
 
 /// The lowest point of a foot: the toe's tip, or the heel 4 cm behind and 6.2 cm below the ankle.
 fn sole(posture: &Posture, side: &str) -> f64 {
-    let [ankle, toe] = reach(&woman(), posture, &format!("{side}_foot"));
+    let [ankle, toe] = ends(&woman(), posture, &format!("{side}_foot"));
     let ahead = (toe - ankle).normalize();
     // The tip of a standing foot is 1 cm above the floor: a pitch of −16.6° is level.
     let level = turn(&(Vec3::x() * -(5.2_f64 / 17.5).atan())) * ahead;

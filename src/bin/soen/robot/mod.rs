@@ -2,7 +2,6 @@
 
 pub(crate) mod args;
 mod figure;
-mod mesh;
 mod report;
 mod table;
 
@@ -12,6 +11,7 @@ use crate::{
 };
 use args::{Reach, RobotWish};
 use soen::{
+    body::Format,
     math::{Pose, Vec3},
     output,
     robot::Robot,
@@ -24,7 +24,7 @@ use std::{
 };
 
 pub(crate) fn robot(wish: &RobotWish) -> Result<ExitCode, Failure> {
-    let format = wish.mesh.as_deref().map(mesh::Format::of).transpose()?;
+    let format = wish.mesh.as_deref().map(format_of).transpose()?;
     let person = scene::person(&wish.person)?;
     let built = Robot::new(&person).map_err(|error| Failure::Input(error.to_string()))?;
     let stood = Stood::new(&built, wish)?;
@@ -32,7 +32,8 @@ pub(crate) fn robot(wish: &RobotWish) -> Result<ExitCode, Failure> {
     let mut written = Vec::new();
     if let (Some(path), Some(format)) = (&wish.mesh, format) {
         let skin = built.skin(&stood.posture, &stood.frames).map_err(cannot)?;
-        put(path, &format.bytes(&skin), &mut written)?;
+        let bytes = output::mesh_file(&skin, format).unwrap_or_default();
+        put(path, &bytes, &mut written)?;
     }
     if let Some(out) = &wish.out {
         write(out, &stood, wish, &report.json(), &mut written)?;
@@ -102,6 +103,18 @@ fn named(skeleton: &Skeleton, reach: &Reach) -> Result<usize, Failure> {
     })
 }
 
+/// The format that a path's ending names, of those that are written.
+fn format_of(path: &Path) -> Result<Format, Failure> {
+    let written = [Format::Obj, Format::Stl, Format::Ply];
+    let format = Format::of_path(path).filter(|format| written.contains(format));
+    format.ok_or_else(|| {
+        Failure::Input(format!(
+            "--mesh is {}; allowed: a path that ends in .obj, .stl or .ply",
+            path.display()
+        ))
+    })
+}
+
 /// Writes all files of a folder; the report last, so that where it stands the others do too.
 fn write(
     out: &Path,
@@ -110,11 +123,12 @@ fn write(
     report: &str,
     written: &mut Vec<PathBuf>,
 ) -> Result<(), Failure> {
-    let (balls, bones) = (figure::balls(stood), figure::bones(stood));
-    let title = &stood.robot.measurements().name;
-    let obj = mesh::figure(title, stood, &balls);
+    let (robot, frames) = (stood.robot, &stood.frames);
+    let muscles = output::muscle_meshes(robot, &stood.posture, frames);
+    let bones = output::bone_meshes(robot, frames);
+    let obj = output::figure_obj(robot, frames, &muscles);
     put(&out.join("robot.obj"), obj.as_bytes(), written)?;
-    for (name, shown) in [("robot.png", balls), ("bones.png", bones)] {
+    for (name, shown) in [("robot.png", muscles), ("bones.png", bones)] {
         put(&out.join(name), &figure::picture(shown, wish.view), written)?;
     }
     put(&out.join("report.json"), report.as_bytes(), written)
