@@ -61,6 +61,19 @@ pub struct Stood {
 }
 
 impl Buckling {
+    /// The length at which a strip along a yarn buckles, by theory [cm].
+    ///
+    /// # Errors
+    /// [`LabError`] where the fabric does not bend or twist.
+    pub fn critical(fabric: &Fabric, yarn: Yarn) -> Result<f64, LabError> {
+        let bending = fabric.along(yarn).bending;
+        let bending = within("bending [gf·cm]", bending, 1e-9, 1e4)?;
+        let twist = within("twist modulus [gf·cm]", fabric.twist, 1e-9, 1e4)?;
+        Ok(libm::cbrt(
+            CRITICAL * (bending * twist).sqrt() / fabric.weight,
+        ))
+    }
+
     /// Halves between standing and buckling.
     ///
     /// # Errors
@@ -68,14 +81,7 @@ impl Buckling {
     pub fn run(&self, fabric: &Fabric, watch: Watch<'_>) -> Result<Stood, LabError> {
         within("slimness [-]", self.slimness, 0.005, 1.0)?;
         within("cells", f64::from(self.cells), 1.0, LONG * self.slimness)?;
-        let bending = within(
-            "bending [gf·cm]",
-            fabric.along(self.yarn).bending,
-            1e-9,
-            1e4,
-        )?;
-        let twist = within("twist modulus [gf·cm]", fabric.twist, 1e-9, 1e4)?;
-        let critical = libm::cbrt(CRITICAL * (bending * twist).sqrt() / fabric.weight);
+        let critical = Self::critical(fabric, self.yarn)?;
         let lengths = [0.0, 2.0 * critical];
         let limit = Limit::find(lengths, WITHIN * critical, |length| {
             let rest = self.stand(fabric, length, watch)?;

@@ -53,6 +53,11 @@ const ROUNDS: usize = 1000;
 const THICKNESS: f64 = 0.01;
 
 impl StickSlip {
+    /// Length of the strip [cm].
+    pub const LENGTH: f64 = LENGTH;
+    /// Fewest and most cells along it: of 10 the tip slips at once, wherever it should.
+    pub const CELLS: [f64; 2] = [20.0, 200.0];
+
     /// Lowers the clamp step by step, each from where the last came to rest, until the tip slips;
     /// then again with half the step from before it did.
     ///
@@ -60,8 +65,12 @@ impl StickSlip {
     /// [`LabError`] where a setting is out of range or the tip never slips.
     pub fn run(&self, fabric: &Fabric, watch: Watch<'_>) -> Result<Slipped, LabError> {
         within("friction [-]", self.friction, 0.02, 0.37)?;
-        // Of 10 cells the tip slips at once, wherever it should.
-        within("cells", f64::from(self.cells), 20.0, 200.0)?;
+        within(
+            "cells",
+            f64::from(self.cells),
+            Self::CELLS[0],
+            Self::CELLS[1],
+        )?;
         let (mut at, mut step) = (0.0, FIRST);
         let mut rest = None;
         while step > WITHIN {

@@ -199,6 +199,39 @@ const SLIPS: &[(&str, &[&str])] = &[
         &["twist modulus [gf·cm] is NaN; allowed"],
     ),
     (
+        "buckling --fabric c --twist 0.008 --pitch 5",
+        &["pitch [cm] is 5; allowed: 0.0065 to 0.1300"],
+    ),
+    (
+        "buckling --fabric c --pitch 0.1",
+        &["twist modulus [gf·cm] is 0; allowed: 0.000000001 to 10000"],
+    ),
+    (
+        "stick-slip --fabric c --pitch 2",
+        &["pitch [cm] is 2; allowed: 0.1000 to 1.0000"],
+    ),
+    (
+        "stick-slip --fabric c --pitch nan",
+        &["pitch [cm] is NaN; allowed"],
+    ),
+    (
+        "resolution --fabric d --pitch 9",
+        &["pitch [cm] is 9; allowed: 0.4 to 3"],
+    ),
+    (
+        "resolution --fabric d --pitch nan",
+        &["pitch [cm] is NaN; allowed"],
+    ),
+    (
+        "resolution --fabric d --seeds 0",
+        &["'0'", "0 is not in 1..=100"],
+    ),
+    (
+        "resolution --fabric no-such-cloth",
+        &["fabric is \"no-such-cloth\"; allowed: a, b, c, d, washi"],
+    ),
+    ("verify --quicker", &["unexpected argument '--quicker'"]),
+    (
         "stick-slip --fabric c --friction=-1",
         &["friction [-] is -1; allowed: 0.02 to 0.37"],
     ),
@@ -236,7 +269,29 @@ const READINGS: &[&str] = &[
     "drapemeter --fabric d --seeds 1 --pitch 2",
     "slope --fabric c --pitch 2",
     "buckling --fabric c --twist 0.008 --rigid",
+    "buckling --fabric c --twist 0.008 --rigid --pitch 0.06",
+    "bias-bend --fabric c --pitch 0.2",
 ];
+
+#[test]
+fn a_folder_that_cannot_be_written_is_named_before_the_work() {
+    for asked in [
+        "verify",
+        "drapemeter --fabric washi",
+        "resolution --fabric d",
+    ] {
+        let trial = Trial::new();
+        std::fs::write(trial.path().join("taken"), "mine").unwrap();
+        let wish = core::iter::once("lab").chain(asked.split_whitespace());
+        let wish: Vec<&str> = wish.chain(["--out", "taken"]).collect();
+        let said = trial.run(&wish);
+        assert_ne!(said.code, 0, "{asked}");
+        assert!(said.err.contains("taken"), "{asked}: {}", said.err);
+        assert!(said.out.is_empty(), "{asked}: {}", said.out);
+        let kept = std::fs::read_to_string(trial.path().join("taken")).unwrap();
+        assert_eq!(kept, "mine");
+    }
+}
 
 #[test]
 fn every_reading_is_of_finite_numbers() {

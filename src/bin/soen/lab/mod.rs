@@ -4,7 +4,7 @@ pub(crate) mod args;
 mod verify;
 
 use crate::{
-    drape::stopped_by_ctrl_c,
+    drape::{stopped_by_ctrl_c, try_folder},
     failure::{DONE, Failure, uncertified},
     files::{mark, marked},
     progress::Teller,
@@ -149,15 +149,19 @@ pub(crate) fn lab(wish: &LabWish) -> Result<ExitCode, Failure> {
         } => show(of, Some(along), |fabric, watch| {
             let twist = twist.unwrap_or(fabric.twist);
             let (yarn, rigid) = (along.direction.yarn(), *rigid);
-            let test = Buckling {
-                yarn,
-                rigid,
-                ..Buckling::default()
-            };
             let cloth = Fabric {
                 twist,
                 ..fabric.clone()
             };
+            let mut test = Buckling {
+                yarn,
+                rigid,
+                ..Buckling::default()
+            };
+            if let Some(pitch) = of.pitch {
+                let height = test.slimness * Buckling::critical(&cloth, yarn)?;
+                test.cells = cells_of(pitch, height, [1.0, 20.0])?;
+            }
             Ok(test.run(&cloth, watch)?.reading())
         }),
         Test::StickSlip {
@@ -167,11 +171,14 @@ pub(crate) fn lab(wish: &LabWish) -> Result<ExitCode, Failure> {
         } => show(of, Some(along), |fabric, watch| {
             let yarn = along.direction.yarn();
             let friction = friction.unwrap_or(fabric.friction.body);
-            let test = StickSlip {
+            let mut test = StickSlip {
                 yarn,
                 friction,
                 cells: 40,
             };
+            if let Some(pitch) = of.pitch {
+                test.cells = cells_of(pitch, StickSlip::LENGTH, StickSlip::CELLS)?;
+            }
             Ok(test.run(fabric, watch)?.reading(&test))
         }),
         Test::Verify { json, out, quick } => verify::verify(*json, out.as_deref(), *quick),
@@ -235,6 +242,9 @@ fn show(
     test: impl FnOnce(&Fabric, Watch<'_>) -> Result<Reading, LabError>,
 ) -> Result<ExitCode, Failure> {
     let fabric = scene::fabric(&of.fabric)?;
+    if let Some(out) = &of.out {
+        try_folder(out)?;
+    }
     let stop = stopped_by_ctrl_c()?;
     let mut teller = Teller::new();
     let reading = test(&fabric, &mut |progress: &Progress| {

@@ -1,7 +1,7 @@
 //! `soen lab verify`: every comparison in one table.
 
 use crate::{
-    drape::stopped_by_ctrl_c,
+    drape::{stopped_by_ctrl_c, try_folder},
     failure::{DONE, Failure},
     say,
 };
@@ -17,6 +17,9 @@ pub(super) fn verify(json: bool, out: Option<&Path>, quick: bool) -> Result<Exit
         .iter()
         .map(|(name, _)| Ok(((*name).to_owned(), scene::fabric(name)?)))
         .collect();
+    if let Some(out) = out {
+        try_folder(out)?;
+    }
     let stop = stopped_by_ctrl_c()?;
     if !json {
         say(&head())?;
