@@ -134,6 +134,7 @@ impl Laid {
             pressure: 10.0 * self.problem.fabric.weight,
             node_skin: 0.01,
             sample_skin: 0.004,
+            sample_distance: 0.25,
         };
         Touches::new(&piece.cut(piece.pitch).unwrap(), surface)
     }

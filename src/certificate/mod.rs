@@ -161,7 +161,7 @@ impl Case<'_> {
                 .collect()
         };
         let mut normals = threads::map(at.len(), |node| near(&at[node], reach));
-        let sites = Sites::new(self.lattice);
+        let sites = Sites::new(self.lattice, self.surface.sample_distance);
         let of_cells = threads::map(self.lattice.cells.len(), |cell| {
             self.normals_at_cell(&sites, cell, at)
         });

@@ -11,7 +11,7 @@ const LAST_STEP: f64 = 1.0 / 128.0;
 /// A place is left for one that is nearer by more than this [cm].
 const WORTH_MOVING: f64 = 1e-4;
 /// Most places tried.
-const MOST_TRIED: usize = 80;
+const MOST_TRIED: usize = 120;
 
 /// Between samples, features of a body are looked for this far from the cloth, in pitches.
 pub(crate) const FEATURE_REACH: f64 = 0.3;
@@ -73,8 +73,8 @@ pub(crate) fn faces_around(
     found
 }
 
-/// A compass search for the place nearest to a surface: at steps that halve, to the best of four
-/// neighbours. Returns its distance [cm] as well.
+/// A compass search for the place nearest to a surface: at steps that halve, to the best of six
+/// neighbours, for cloth that is creased along a cell's diagonal has the nearest place on it. Returns its distance [cm] as well.
 fn descend(distance: &mut impl FnMut([f64; 2]) -> f64, start: (f64, [f64; 2])) -> (f64, [f64; 2]) {
     let mut best = start;
     let mut step = 0.125;
@@ -84,7 +84,7 @@ fn descend(distance: &mut impl FnMut([f64; 2]) -> f64, start: (f64, [f64; 2])) -
             .map(|place| (distance(place), place))
             .into_iter()
             .min_by(|a, b| a.0.total_cmp(&b.0));
-        tried += 4;
+        tried += 6;
         match next {
             Some(next) if next.0 < best.0 - WORTH_MOVING => best = next,
             _ => step *= 0.5,
@@ -93,12 +93,14 @@ fn descend(distance: &mut impl FnMut([f64; 2]) -> f64, start: (f64, [f64; 2])) -
     best
 }
 
-fn neighbours([u, v]: [f64; 2], step: f64) -> [[f64; 2]; 4] {
+fn neighbours([u, v]: [f64; 2], step: f64) -> [[f64; 2]; 6] {
     let inside = |x: f64| x.clamp(0.0, 1.0);
     [
         [inside(u - step), v],
         [inside(u + step), v],
         [u, inside(v - step)],
         [u, inside(v + step)],
+        [inside(u - step), inside(v - step)],
+        [inside(u + step), inside(v + step)],
     ]
 }

@@ -1,10 +1,6 @@
 //! Where a cloth holds on to bodies, taken along as they move: friction remembers its way.
 
-use super::{
-    Friction, Site, Skin,
-    touch::Touch,
-    touches::{PLACES, Touches},
-};
+use super::{Friction, Site, Skin, places::PLACES, touch::Touch, touches::Touches};
 use crate::{body::Bodies, lattice::Lattice, math::Vec3};
 
 /// The touches in which friction acts, and the bodies as they were then.
@@ -78,6 +74,7 @@ impl Touches {
             let kept = touch.friction.give / slip.norm().max(touch.friction.give);
             Touch {
                 anchor: here - slip * kept,
+                swings: 0,
                 ..*touch
             }
         });
@@ -195,6 +192,7 @@ fn touch_of(numbers: &[f64]) -> Option<Touch> {
         },
         normal: vector(10),
         turn: vector(13),
+        swings: 0,
         anchor: vector(16),
         top: numbers[19],
         skin: Skin {

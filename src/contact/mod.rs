@@ -9,6 +9,7 @@
 mod deepest;
 mod footing;
 mod law;
+mod places;
 mod sites;
 mod touch;
 mod touches;

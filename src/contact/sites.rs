@@ -19,6 +19,7 @@ pub struct Sites {
     cells: Vec<[u32; 4]>,
     area: Vec<f64>,
     side: usize,
+    with_edges: bool,
     sample_area: f64,
 }
 
@@ -36,14 +37,18 @@ pub(crate) fn corner_of([u, v]: [f64; 2]) -> usize {
 const SAMPLE_DISTANCE: f64 = 0.2;
 
 impl Sites {
-    /// The sites of a lattice.
+    /// The sites of a lattice. Where samples come to stand farther apart than `distance` [cm] they
+    /// take in the edges of the cells, which are the nearest that cloth folded there has to a body.
     #[must_use]
-    pub fn new(lattice: &Lattice) -> Self {
-        let side = (lattice.pitch / SAMPLE_DISTANCE).ceil().clamp(2.0, 4.0) as usize;
+    pub fn new(lattice: &Lattice, distance: f64) -> Self {
+        let side = (lattice.pitch / SAMPLE_DISTANCE).ceil().clamp(2.0, 4.0);
+        let with_edges = lattice.pitch > distance * side;
+        let side = side as usize + usize::from(with_edges);
         Self {
             cells: lattice.cells.clone(),
             area: lattice.area.clone(),
             side,
+            with_edges,
             sample_area: lattice.pitch * lattice.pitch / (side * side) as f64,
         }
     }
@@ -57,7 +62,12 @@ impl Sites {
     /// Places of the samples in any cell, each from 0 to 1 along both sides.
     pub fn places(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
         let side = self.side;
-        let place = move |k: usize| (k as f64 + 0.5) / side as f64;
+        let [from, length] = if self.with_edges {
+            [0.0, side as f64 - 1.0]
+        } else {
+            [0.5, side as f64]
+        };
+        let place = move |k: usize| (k as f64 + from) / length;
         (0..side * side).map(move |k| [place(k % side), place(k / side)])
     }
 

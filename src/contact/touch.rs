@@ -5,6 +5,9 @@ use crate::math::{Mat3, Vec3};
 
 /// Two normals whose mean is shorter than this have no direction between them.
 const LEAST_MIDDLE: f64 = 1e-6;
+/// A normal that turned back half as often as this, less the times when it went on, is not held back:
+/// most swings die down by being met half way.
+const SWINGS: u32 = 8;
 
 /// A site near one part of a body.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +22,8 @@ pub struct Touch {
     pub normal: Vec3,
     /// How the normal turned at the last look.
     pub turn: Vec3,
+    /// Twice for every time that it turned back, less one for every time that it went on.
+    pub swings: u32,
     /// Depth in the skin at a position p is `top − normal·p` [cm].
     pub top: f64,
     /// The normal law.
@@ -29,17 +34,48 @@ pub struct Touch {
     pub anchor: Vec3,
 }
 
-/// The normal of a touch that goes on, and its turn. One that turns back is met half way: between
-/// two faces of an edge a site would else swing for ever.
-pub(super) fn settled_normal(before: &Touch, now: &Vec3) -> (Vec3, Vec3) {
-    let turn = now - before.normal;
-    if turn.dot(&before.turn) >= 0.0 {
-        return (*now, turn);
-    }
-    // Opposite faces, as of a thin board, have no middle.
-    match (before.normal + turn * 0.5).try_normalize(LEAST_MIDDLE) {
-        Some(middle) => (middle, middle - before.normal),
-        None => (*now, turn),
+/// A normal as a touch takes it at a look.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Settled {
+    pub(super) normal: Vec3,
+    /// How it turned.
+    pub(super) turn: Vec3,
+    /// Twice for every time that it turned back, less one for every time that it went on.
+    pub(super) swings: u32,
+}
+
+impl Settled {
+    /// The normal of a touch, that goes on from one before. One that turns back is met half way, and
+    /// one that swings on turns less and less: between two faces of an edge a site would else swing
+    /// for ever.
+    pub(super) fn after(before: Option<&Touch>, now: &Vec3) -> Self {
+        let whole = |turn, swings| Self {
+            normal: *now,
+            turn,
+            swings,
+        };
+        let Some(before) = before else {
+            return whole(Vec3::zeros(), 0);
+        };
+        let turn = now - before.normal;
+        let (part, swings) = if turn.dot(&before.turn) < 0.0 {
+            (0.5, before.swings.saturating_add(2))
+        } else {
+            (1.0, before.swings.saturating_sub(1))
+        };
+        let part = part * (f64::from(SWINGS) / f64::from(swings)).min(1.0);
+        if part == 1.0 {
+            return whole(turn, swings);
+        }
+        // Opposite faces, as of a thin board, have no middle.
+        match (before.normal + turn * part).try_normalize(LEAST_MIDDLE) {
+            Some(middle) => Self {
+                normal: middle,
+                turn: middle - before.normal,
+                swings,
+            },
+            None => whole(turn, swings),
+        }
     }
 }
 
@@ -85,9 +121,8 @@ impl Touch {
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_normal_that_turns_back_is_met_half_way_and_one_that_turns_over_is_followed() {
-        let touch = |normal: Vec3, turn: Vec3| Touch {
+    fn touch(normal: Vec3, turn: Vec3) -> Touch {
+        Touch {
             number: 0,
             site: Site {
                 nodes: [0; 4],
@@ -96,6 +131,7 @@ mod tests {
             part: 0,
             normal,
             turn,
+            swings: 0,
             top: 0.0,
             skin: Skin {
                 scale: 1.0,
@@ -106,11 +142,41 @@ mod tests {
                 give: 0.004,
             },
             anchor: Vec3::zeros(),
+        }
+    }
+
+    #[test]
+    fn a_normal_that_turns_back_is_met_half_way_and_one_that_turns_over_is_followed() {
+        let after = |normal: Vec3, turn: Vec3, now: Vec3| {
+            let settled = Settled::after(Some(&touch(normal, turn)), &now);
+            (settled.normal, settled.turn)
         };
         let (x, z) = (Vec3::x(), Vec3::z());
-        assert_eq!(settled_normal(&touch(z, z - x), &z), (z, Vec3::zeros()));
-        let (half, _) = settled_normal(&touch(z, z - x), &x);
+        assert_eq!(after(z, z - x, z), (z, Vec3::zeros()));
+        let (half, _) = after(z, z - x, x);
         assert!((half - (x + z).normalize()).norm() < 1e-15);
-        assert_eq!(settled_normal(&touch(z, z), &-z), (-z, z * -2.0));
+        assert_eq!(after(z, z, -z), (-z, z * -2.0));
+    }
+
+    /// A site under an edge that is nearer to that face which its normal leans away from: met half
+    /// way each time, it would swing between 30° and 60° for ever.
+    #[test]
+    fn a_normal_between_two_faces_comes_to_rest_between_them() {
+        let (x, z) = (Vec3::x(), Vec3::z());
+        let mut on = touch(z, z - x);
+        let mut lean = Vec::new();
+        let mut now = z;
+        for look in 0..400 {
+            // The cloth yields at every second look.
+            if look % 2 == 0 {
+                now = if on.normal.z > on.normal.x { x } else { z };
+            }
+            let settled = Settled::after(Some(&on), &now);
+            (on.normal, on.turn, on.swings) = (settled.normal, settled.turn, settled.swings);
+            lean.push(on.normal.z - on.normal.x);
+        }
+        let last = &lean[390..];
+        assert!(last.iter().all(|lean| lean.abs() < 0.05), "{last:?}");
+        assert!((on.normal.norm() - 1.0).abs() < 1e-15);
     }
 }

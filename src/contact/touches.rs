@@ -2,9 +2,10 @@
 
 use super::{
     Friction, Site, Sites, Skin,
-    deepest::{FEATURE_REACH, Sample, deepest_place},
+    deepest::{FEATURE_REACH, Sample},
+    places::{PLACES, Places},
     sites::corner_of,
-    touch::{Touch, settled_normal},
+    touch::{Settled, Touch},
 };
 use crate::{
     body::{Bodies, Near},
@@ -26,6 +27,8 @@ pub struct Surface {
     pub node_skin: f64,
     /// The same for the samples between them, which have no thickness to yield [cm].
     pub sample_skin: f64,
+    /// Samples farther apart than this [cm] take in the edges of the cells.
+    pub sample_distance: f64,
 }
 
 impl Surface {
@@ -53,19 +56,12 @@ const LIMIT_KEPT: f64 = 0.001;
 /// smooth body nodes carry and edges and sharp features meet samples.
 const SAMPLE_REACH: f64 = 0.005;
 
-/// Places of features that a cell remembers at most.
-pub(super) const PLACES: usize = 6;
-/// A place nearer than this to a remembered one, in parts of the cell's side, is the same.
-const SAME_PLACE: f64 = 0.05;
-/// A remembered place this far from all surfaces [cm], beyond its reach, is forgotten.
-const FORGOTTEN: f64 = 0.05;
-
 /// All touches, in order of site and part.
 #[derive(Clone, Debug)]
 pub struct Touches {
     pub(super) sites: Sites,
-    surface: Surface,
-    pitch: f64,
+    pub(super) surface: Surface,
+    pub(super) pitch: f64,
     pub(super) touches: Vec<Touch>,
     /// Whether limits of friction outlast a moment without load.
     pub(super) firm: bool,
@@ -79,8 +75,6 @@ pub struct Touches {
     pub(super) places: Vec<Places>,
 }
 
-type Places = [Option<[f64; 2]>; PLACES];
-
 /// A site with a surface near it.
 struct Found {
     number: u32,
@@ -92,7 +86,7 @@ impl Touches {
     /// Of a lattice's sites; none are found before the first [`refresh`](Self::refresh).
     #[must_use]
     pub fn new(lattice: &Lattice, surface: Surface) -> Self {
-        let sites = Sites::new(lattice);
+        let sites = Sites::new(lattice, surface.sample_distance);
         let nodes = lattice.coordinates.len();
         Self {
             surface,
@@ -208,31 +202,6 @@ impl Touches {
         (places, found)
     }
 
-    /// The places of a cell's features: those known before that are still near one, and the
-    /// deepest now. A cell that rests on several keeps them all, else it would rock between them.
-    fn remember(
-        &self,
-        cell: usize,
-        nears: &impl Fn([f64; 2], f64) -> Vec<Near>,
-        wide: f64,
-        samples: &[Sample],
-    ) -> Places {
-        let far = self.surface.sample_reach() + FORGOTTEN;
-        let near = |place: &[f64; 2]| !nears(*place, far).is_empty();
-        let mut places = self.places[cell].map(|place| place.filter(near));
-        if let Some(place) = deepest_place(nears, wide, samples) {
-            let same = |known: &[f64; 2]| {
-                (known[0] - place[0]).abs().max((known[1] - place[1]).abs()) < SAME_PLACE
-            };
-            if !places.iter().flatten().any(same)
-                && let Some(free) = places.iter_mut().find(|known| known.is_none())
-            {
-                *free = Some(place);
-            }
-        }
-        places
-    }
-
     /// How far every point of a cell is from any surface at least, by what its nodes know [cm].
     fn clear_of(&self, cell: usize, at: &[Vec3]) -> f64 {
         let nodes = self.sites.cells()[cell];
@@ -272,15 +241,18 @@ impl Touches {
                 surface.sample_skin,
             ),
         };
-        let (normal, turn) = before.map_or((near.normal, Vec3::zeros()), |touch| {
-            settled_normal(touch, &near.normal)
-        });
+        let Settled {
+            normal,
+            turn,
+            swings,
+        } = Settled::after(before, &near.normal);
         Touch {
             number: key.0,
             site,
             part: key.1,
             normal,
             turn,
+            swings,
             top: normal.dot(&here) - near.distance + reach,
             skin: Skin {
                 scale: self.surface.pressure * area,

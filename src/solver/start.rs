@@ -102,7 +102,7 @@ impl Start {
         if self.held.iter().any(|held| *held) {
             return Some(());
         }
-        let sites = Sites::new(lattice);
+        let sites = Sites::new(lattice, surface.sample_distance);
         let nodes = threads::map(self.at.len(), |node| problem.bodies.fall(&self.at[node]));
         let cells = threads::map(sites.cells().len(), |cell| {
             let falls = sites.places().map(|place| {

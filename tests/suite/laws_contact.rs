@@ -127,6 +127,7 @@ fn pressed(lattice: &Lattice, at: &[Vec3], slip: &Vec3) -> (Touches, Vec<Vec3>) 
         pressure: 0.14,
         node_skin: 0.004,
         sample_skin: 0.004,
+        sample_distance: 0.25,
     };
     let on_ball = |at: &Vec3| {
         let height = 10.0 + at.z;

@@ -64,4 +64,5 @@ mod woman;
 
 mod animate;
 mod animation;
+mod rims;
 mod robot;

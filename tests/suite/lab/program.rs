@@ -281,14 +281,14 @@ fn a_folder_that_cannot_be_written_is_named_before_the_work() {
         "resolution --fabric d",
     ] {
         let trial = Trial::new();
-        std::fs::write(trial.path().join("taken"), "mine").unwrap();
+        fs::write(trial.path().join("taken"), "mine").unwrap();
         let wish = core::iter::once("lab").chain(asked.split_whitespace());
         let wish: Vec<&str> = wish.chain(["--out", "taken"]).collect();
         let said = trial.run(&wish);
         assert_ne!(said.code, 0, "{asked}");
         assert!(said.err.contains("taken"), "{asked}: {}", said.err);
         assert!(said.out.is_empty(), "{asked}: {}", said.out);
-        let kept = std::fs::read_to_string(trial.path().join("taken")).unwrap();
+        let kept = fs::read_to_string(trial.path().join("taken")).unwrap();
         assert_eq!(kept, "mine");
     }
 }
