@@ -53,9 +53,10 @@ pub fn errors(
     let stature = ends.fold(f64::MIN_POSITIVE, f64::max);
     let mut sum = [0.0; 4];
     let mut count = 0.0;
-    for (stance, key) in actor.frames().zip(motion.keys()) {
-        let poses = skeleton.stand(&key.posture);
-        let hips = [follower.hips(&stance), key.posture.root.translation.vector];
+    for (frame, stance) in actor.frames().enumerate() {
+        let posture = motion.at(frame as f64 * source.frame_time);
+        let poses = skeleton.stand(&posture);
+        let hips = [follower.hips(&stance), posture.root.translation.vector];
         for side in 0..2 {
             for (sum, off) in sum
                 .iter_mut()

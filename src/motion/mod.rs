@@ -8,6 +8,7 @@ mod between;
 mod bvh;
 mod capture;
 mod compare;
+mod floor;
 mod mapping;
 mod retarget;
 

@@ -13,13 +13,14 @@
 //! 3. A foot is turned against its shank as the actor's is against his.
 //! 4. A bone without a source, or whose joint does not turn, goes with its parent.
 //!
-//! The hips' middle goes the actor's way, as much shorter as our legs are; the lowest ankle of all
-//! frames is where a standing person's is. Toes are one with the foot, so that their tip may dip
-//! into the floor where an actor's bend.
+//! The hips' middle goes the actor's way, as much shorter as our legs are. Feet are brought onto the
+//! floor as `floor` tells; where only bones are known, the lowest ankle of all frames is where a
+//! standing person's is.
 
 use super::{
     Bvh, InvalidMotion, Key, Mapping, Motion,
     capture::{Actor, Stance},
+    floor::{Tread, tread_on, treads},
 };
 use crate::{
     math::{Pose, Rotation, Vec3, turn},
@@ -76,7 +77,13 @@ const ARMS: [[&str; 2]; 2] = [
     ["left_upper_arm", "left_forearm"],
 ];
 
-/// The capture as a motion of our bones, a key for each frame, from 0 s and the standing place on.
+/// A foot whose sole is steeper than this where it stands does not stand on it: cosine of 30°.
+const STEEPEST: f64 = 0.866;
+
+const FEET: [&str; 2] = ["right_foot", "left_foot"];
+
+/// The capture as a motion of our bones, from 0 s and the standing place on: a key for each frame and,
+/// where those are few and the skeleton knows its soles, keys between.
 ///
 /// Joint limits are not kept: [`Motion::beyond_limits`] tells where they are exceeded.
 ///
@@ -92,34 +99,67 @@ pub fn retarget(
     for [upper, fore] in ARMS {
         follower.bend_ahead(&actor, skeleton, [upper, fore]);
     }
-    let scale = leg(skeleton)? / follower.actor_leg(&actor.unturned())?;
+    let actor_leg = follower.actor_leg(&actor.unturned())?;
+    let scale = leg(skeleton)? / actor_leg;
+    let step = source.frame_time;
+    let joints = Joints {
+        actor: &actor,
+        source,
+        mapping,
+    };
+    // A foot without a ball is its ankle.
+    let foot = |side: usize| {
+        let [_, _, ankle] = follower.legs[side];
+        [ankle, joints.tip(FEET[side]).unwrap_or(ankle)]
+    };
+    let treads = treads(&actor, [foot(0), foot(1)], actor_leg, step);
+    if !skeleton.soles().is_empty() {
+        for (foot, treads) in FEET.iter().zip(&treads) {
+            follower.stand_flat(&actor, skeleton.bone(foot), treads);
+        }
+    }
+    let mut keys: Vec<Key> = Vec::with_capacity(source.frames.len());
+    for (index, stance) in actor.frames().enumerate() {
+        let mut posture = follower.posture(&stance, skeleton);
+        posture.root.translation.vector *= scale;
+        let time = index as f64 * step;
+        keys.push(Key { time, posture });
+    }
+    begin_above_standing_place(&mut keys, skeleton);
+    let motion = Motion::new(mapping.name.clone(), keys, None, skeleton)?;
+    let keys = tread_on(&motion, skeleton, &treads, step)
+        .unwrap_or_else(|| stood_on_lowest_ankle(motion.keys(), skeleton));
+    Ok(Motion::new(mapping.name.clone(), keys, None, skeleton)?)
+}
+
+/// Moves keys on the floor, so that the first is where the person stands.
+fn begin_above_standing_place(keys: &mut [Key], skeleton: &Skeleton) {
+    let start = keys.first().map(|key| key.posture.root.translation.vector);
+    let mut shift = skeleton.base() - start.unwrap_or_default();
+    shift.z = 0.0;
+    for key in keys {
+        key.posture.root.translation.vector += shift;
+    }
+}
+
+/// Keys moved up or down, so that the lowest ankle of all is where a standing person's is.
+fn stood_on_lowest_ankle(keys: &[Key], skeleton: &Skeleton) -> Vec<Key> {
     let ankles = ["right_shank", "left_shank"].map(|bone| skeleton.bone(bone));
-    let ankle = |pose: &[Pose]| {
+    let ankle = |posture: &Posture| {
+        let pose = skeleton.stand(posture);
         let ends = ankles
             .iter()
             .flatten()
             .filter_map(|bone| Some(skeleton.bones().get(*bone)?.end(pose.get(*bone)?).z));
         ends.fold(f64::INFINITY, f64::min)
     };
-    let standing = ankle(&skeleton.stand(&Posture::standing(skeleton)));
-    let mut lowest = f64::INFINITY;
-    let mut keys: Vec<Key> = Vec::with_capacity(source.frames.len());
-    for (index, stance) in actor.frames().enumerate() {
-        let mut posture = follower.posture(&stance, skeleton);
-        posture.root.translation.vector *= scale;
-        lowest = lowest.min(ankle(&skeleton.stand(&posture)));
-        let time = index as f64 * source.frame_time;
-        keys.push(Key { time, posture });
-    }
-    let start = keys
-        .first()
-        .map_or(Vec3::zeros(), |key| key.posture.root.translation.vector);
-    let base = skeleton.base();
-    let shift = Vec3::new(base.x - start.x, base.y - start.y, standing - lowest);
+    let lowest = keys.iter().map(|key| ankle(&key.posture));
+    let rise = ankle(&Posture::standing(skeleton)) - lowest.fold(f64::INFINITY, f64::min);
+    let mut keys = keys.to_vec();
     for key in &mut keys {
-        key.posture.root.translation.vector += shift;
+        key.posture.root.translation.vector.z += rise;
     }
-    Ok(Motion::new(mapping.name.clone(), keys, None, skeleton)?)
+    keys
 }
 
 /// What moves each of our bones.
@@ -235,6 +275,22 @@ impl Follower {
             Ok(mean)
         } else {
             Err(RetargetError::NoLength { limb: "leg" })
+        }
+    }
+
+    /// Turns a foot as built, so that where the actor's stands flat its sole is level on the whole.
+    fn stand_flat(&mut self, actor: &Actor<'_>, foot: Option<usize>, treads: &[Tread]) {
+        let Some(Some(track)) = foot.and_then(|foot| self.bones.get_mut(foot)) else {
+            return;
+        };
+        let flat = actor
+            .frames()
+            .zip(treads)
+            .filter(|(_, tread)| tread.is_flat);
+        let ups = flat.map(|(stance, _)| track.turn(&stance).inverse() * Vec3::z());
+        let up: Vec3 = ups.sum();
+        if up.z > STEEPEST * up.norm() {
+            track.built *= swing(&Vec3::z(), &up);
         }
     }
 

@@ -16,6 +16,7 @@
 //! - the neck 45°/45°/45°/60°: the skull's joints nod, and give two thirds of the turn.
 
 use super::{
+    extremities::soles,
     levels::Levels,
     measurements::{InvalidMeasurement, Measurements},
 };
@@ -96,7 +97,9 @@ impl Measurements {
             list.leg(&levels, 0.5 * HIP_JOINTS * self.hip_width, side);
         }
         let base = Vec3::new(0.0, 0.0, levels.hip_joint);
-        Ok(Skeleton::new(base, list.0)?)
+        let skeleton = Skeleton::new(base, list.0)?;
+        let soles = soles(&skeleton, levels.foot);
+        Ok(skeleton.with_soles(soles))
     }
 }
 

@@ -3,10 +3,13 @@
 use super::{
     bones::{ANKLE_FROM_HEEL, Side},
     measurements::Girth,
-    muscles::{Builder, Flesh, Limb},
+    muscles::{Builder, Flesh, Limb, starts},
     profile::Profile,
 };
-use crate::math::Vec3;
+use crate::{
+    math::Vec3,
+    skeleton::{Skeleton, Sole},
+};
 
 /// Balls of the head: how far above the chin, how far back, and radius, as shares of its height.
 /// Its breadth comes to 0.65 of its height, its depth to 0.79 (from memory of anthropometry).
@@ -55,6 +58,33 @@ const FOOT: [[f64; 4]; 10] = [
     [0.87, 0.098, 0.058, 0.06],
     [0.945, 0.075, 0.052, 0.055],
 ];
+
+/// Rows of a foot of a length [cm] from heel to toes: middles [cm] from below the ankle, and radii.
+fn foot_rows(length: f64) -> impl Iterator<Item = [(Vec3, f64); 3]> {
+    FOOT.into_iter().map(move |[along, half, outer, inner]| {
+        let back = ANKLE_FROM_HEEL - along;
+        [(-half, outer), (0.0, inner), (half, outer)]
+            .map(|(x, radius)| (Vec3::new(x, back, radius) * length, radius * length))
+    })
+}
+
+/// What both feet of a standing skeleton stand on, the balls of [`Builder::foot`].
+pub(super) fn soles(skeleton: &Skeleton, length: f64) -> Vec<Sole> {
+    let starts = starts(skeleton);
+    let sides = [Side::Right, Side::Left];
+    let feet = sides.iter().filter_map(|side| {
+        let bone = skeleton.bone(&side.of("foot"))?;
+        Some((bone, starts.get(bone)?.z))
+    });
+    feet.flat_map(|(bone, ankle)| {
+        foot_rows(length).flatten().map(move |(at, radius)| Sole {
+            bone,
+            at: at - Vec3::z() * ankle,
+            radius,
+        })
+    })
+    .collect()
+}
 
 impl Builder<'_> {
     /// Height at which the neck is measured: half way up.
@@ -138,12 +168,10 @@ impl Builder<'_> {
         let (start, length) = (self.line(bone).0, self.levels.foot);
         let mut before: Vec<usize> = Vec::new();
         let mut instep = Vec::new();
-        for [along, half, outer, inner] in FOOT {
-            let y = (ANKLE_FROM_HEEL - along) * length;
-            let row: Vec<usize> = [(-half, outer), (0.0, inner), (half, outer)]
-                .map(|(x, radius)| {
-                    let radius = radius * length;
-                    let centre = Vec3::new(start.x + x * length, start.y + y, radius);
+        for row in foot_rows(length) {
+            let row: Vec<usize> = row
+                .map(|(at, radius)| {
+                    let centre = Vec3::new(start.x + at.x, start.y + at.y, radius);
                     self.ball(bone, centre, radius)
                 })
                 .to_vec();

@@ -33,11 +33,23 @@ pub struct Bone {
     pub joint: Joint,
 }
 
+/// What a foot stands on: a ball of flesh below a bone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sole {
+    /// The bone that it goes with.
+    pub bone: usize,
+    /// Its middle [cm], from the bone's joint, in the axes of the standing frame.
+    pub at: Vec3,
+    /// Its radius [cm].
+    pub radius: f64,
+}
+
 /// Bones, parents before children; the first one is the pelvis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Skeleton {
     base: Vec3,
     bones: Vec<Bone>,
+    soles: Vec<Sole>,
 }
 
 /// A list of bones that is no skeleton.
@@ -96,7 +108,22 @@ impl Skeleton {
                 return Err(InvalidSkeleton::Limits(bone.joint.name.clone()));
             }
         }
-        Ok(Self { base, bones })
+        let soles = Vec::new();
+        Ok(Self { base, bones, soles })
+    }
+
+    /// The same skeleton with flesh below its feet; that of bones which it does not have is left out.
+    #[must_use]
+    pub fn with_soles(mut self, soles: Vec<Sole>) -> Self {
+        let count = self.bones.len();
+        self.soles = soles.into_iter().filter(|sole| sole.bone < count).collect();
+        self
+    }
+
+    /// What the feet stand on; nothing where only bones are known.
+    #[must_use]
+    pub fn soles(&self) -> &[Sole] {
+        &self.soles
     }
 
     /// Where the first bone starts when the person stands, A of figure 4 [cm].
