@@ -1,5 +1,10 @@
 //! `soen animate`: as many frames as asked, each with its proof; ended and gone on, the same bits.
 
+#![allow(
+    clippy::print_stdout,
+    reason = "what was not tried is for whoever runs the tests with --nocapture"
+)]
+
 use crate::trial::Trial;
 use gltf::animation::util::ReadOutputs;
 use serde_json::Value;
@@ -83,4 +88,43 @@ fn what_cannot_be_animated_is_refused() {
         assert!(said.err.contains(message), "{}", said.err);
         assert!(trial.kept());
     }
+}
+
+#[test]
+fn scenes_in_motion_are_read_and_a_capture_that_is_not_there_is_named() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/motion");
+    let mut names = vec![];
+    for entry in fs::read_dir(&folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        match soen::scene::read(&path) {
+            Ok(scene) => assert!(scene.cast.moves() && scene.frames.is_some(), "{name}"),
+            // Captures are not part of the project.
+            Err(error) => {
+                println!("{name}: {error}");
+                assert!(name.contains("captured") && error.to_string().contains("no such file"));
+            }
+        }
+        names.push(name);
+    }
+    names.sort();
+    assert_eq!(
+        names,
+        ["poncho-captured-walk", "poncho-jump", "poncho-walk"]
+    );
+
+    let trial = Trial::new();
+    let scene = fs::read(folder.join("poncho-captured-walk.toml")).unwrap();
+    trial.put("walk.toml", &scene);
+    let said = trial.run(&["animate", "walk.toml", "--out", "out"]);
+    assert_eq!(said.code, 2, "{}", said.err);
+    let file = "shared/data/motion/cmu_02_01_walk.bvh";
+    assert!(
+        said.err
+            .contains("walk.toml:16:42: body[1].robot.motion is"),
+        "{}",
+        said.err
+    );
+    assert!(said.err.contains("no such file; tried") && said.err.contains(file));
+    assert!(trial.kept());
 }

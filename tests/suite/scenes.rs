@@ -24,12 +24,14 @@ macro_rules! scenes {
 }
 
 scenes! {
+    a_cape_on_shoulders "cape"
     dress_form "dress-form"
     along_the_warp "fig10-warp"
     on_the_bias "fig11-bias"
     tension_alone_on_a_ball "fig12a-tension-only"
     all_laws_on_a_ball "fig12b-full"
     thin_cloth_on_two_balls "fig12c-two-balls"
+    a_poncho_on_a_woman_who_stands "poncho"
     over_a_table "table"
     two_balls "two-balls"
 }
