@@ -77,6 +77,24 @@ fn bodies_are_as_measured() {
     }
 }
 
+/// The skeleton's soles are the robot's balls, and the standing person's touch the floor.
+#[test]
+fn soles_are_the_feet_that_stand_on_the_floor() {
+    for (name, robot) in everyone() {
+        let skeleton = robot.skeleton();
+        let frames = by_hand(skeleton, &Posture::standing(skeleton));
+        assert_eq!(skeleton.soles().len(), 60, "{name}");
+        for sole in skeleton.soles() {
+            let height = (frames[sole.bone] * nalgebra::Point3::from(sole.at)).z - sole.radius;
+            assert!(height.abs() < 1e-9, "{name}: {height}");
+            let is_it = |m: &&soen::robot::Muscle| {
+                m.bone == sole.bone && m.radius == sole.radius && (m.at - sole.at).norm() < 1e-9
+            };
+            assert!(robot.muscles().iter().any(|muscle| is_it(&muscle)));
+        }
+    }
+}
+
 /// A bent elbow thickens the upper arm, a bent knee the thigh: nothing else that is not beyond a
 /// joint changes when it turns.
 fn bulges(joint: &str, bone: &str) -> bool {
