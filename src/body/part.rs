@@ -169,6 +169,27 @@ impl Part {
         (self.pose.rotation * own).into()
     }
 
+    /// This part half way here from where it `was`: turned by half of the turn, by the shorter way.
+    pub(super) fn half_way_from(&self, was: &Self) -> Self {
+        let (from, to) = (was.pose.rotation, self.pose.rotation);
+        let side = if from.dot(to) < 0.0 { -1.0 } else { 1.0 };
+        let sum = Rotation::from_xyzw(
+            from.x * side + to.x,
+            from.y * side + to.y,
+            from.z * side + to.z,
+            from.w * side + to.w,
+        );
+        let middle = (was.pose.translation + self.pose.translation) * 0.5;
+        let pose = ParryPose::from_parts(middle, sum.normalize());
+        Self {
+            centre: self.shape.compute_aabb(&pose).center().into(),
+            pose,
+            name: self.name.clone(),
+            nature: self.nature,
+            shape: self.shape.clone(),
+        }
+    }
+
     /// Its surface as triangles in space [cm], for pictures and files; round shapes are divided
     /// finely.
     #[must_use]

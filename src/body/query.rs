@@ -81,6 +81,14 @@ impl Bodies {
         self.parts.get(part).zip(now.parts.get(part))
     }
 
+    /// The bodies half way to where they are later, part by part: shapes as they are then, poses in
+    /// the middle.
+    #[must_use]
+    pub fn half_way(&self, later: &Self) -> Self {
+        let pairs = self.parts.iter().zip(&later.parts);
+        Self::new(pairs.map(|(from, to)| to.half_way_from(from)).collect())
+    }
+
     /// The box around all parts: its least and greatest corner [cm]; `None` without parts.
     #[must_use]
     pub fn extent(&self) -> Option<(Vec3, Vec3)> {

@@ -1,9 +1,10 @@
 //! What each node bears, element by element from the positions alone, by statics instead of by
 //! derivatives: tensions along rods, couples that rods carry as pairs of forces.
 
+use super::{Equilibrium, Passage};
 use crate::{
     fabric::Fabric,
-    forces::{Clamp, Laws},
+    forces::{Clamp, GRAVITY, Laws},
     lattice::Lattice,
     math::Vec3,
 };
@@ -25,6 +26,8 @@ pub(super) struct Loads<'a> {
     pub(super) clamps: &'a [Clamp],
     /// Figures 7–9: bends and corners act on their own node only, twist on none.
     pub(super) own_only: bool,
+    /// The last step of a cloth in motion.
+    pub(super) passage: Option<Passage<'a>>,
 }
 
 impl Loads<'_> {
@@ -51,7 +54,42 @@ impl Loads<'_> {
         if self.laws.shear {
             self.add_corners(at, &mut loads);
         }
+        if let Some(passage) = &self.passage {
+            self.add_inertia(passage, at, &mut loads);
+        }
         loads
+    }
+
+    /// Mass of a node [gf·s²/cm].
+    fn mass(&self, node: usize) -> f64 {
+        self.lattice.area[node] * self.fabric.weight / GRAVITY
+    }
+
+    /// D'Alembert's load, mass times acceleration backwards, and the resistance of the air.
+    fn add_inertia(&self, passage: &Passage<'_>, at: &[Vec3], loads: &mut [Load]) {
+        for (node, load) in loads.iter_mut().enumerate() {
+            let velocity = passage.velocity(node, at);
+            let gain = velocity - passage.velocities[node];
+            load.add(gain * (-self.mass(node) / passage.step));
+            load.add(velocity * (-self.mass(node) * passage.damping));
+        }
+    }
+
+    /// Which equilibrium the loads are of.
+    pub(super) fn equilibrium(&self, at: &[Vec3]) -> Equilibrium {
+        let Some(passage) = &self.passage else {
+            return Equilibrium::Static;
+        };
+        let (mut fastest, mut twice) = (0.0_f64, 0.0);
+        for node in 0..at.len() {
+            let square = passage.velocity(node, at).norm_squared();
+            fastest = fastest.max(square.sqrt());
+            twice += self.mass(node) * square;
+        }
+        Equilibrium::Dynamic {
+            fastest,
+            kinetic_energy: 0.5 * twice,
+        }
     }
 
     /// (5).
@@ -155,6 +193,13 @@ impl Loads<'_> {
     }
 }
 
+impl Passage<'_> {
+    /// A node's mean velocity over the step [cm/s].
+    fn velocity(&self, node: usize, at: &[Vec3]) -> Vec3 {
+        (at[node] - self.from[node]) / self.step
+    }
+}
+
 impl Load {
     fn add(&mut self, force: Vec3) {
         self.net += force;
@@ -255,7 +300,7 @@ mod tests {
                     let laws = Laws { tension, bending, shear };
                     let sheet = Sheet::new(&lattice, &fabric, laws, &clamps);
                     let loads = |own_only| Loads {
-                        lattice: &lattice, fabric: &fabric, laws, clamps: &clamps, own_only,
+                        lattice: &lattice, fabric: &fabric, laws, clamps: &clamps, own_only, passage: None,
                     }.at(&at);
                     for (load, force) in loads(false).iter().zip(sheet.forces(&at)) {
                         agree(load, &force)?;
@@ -300,6 +345,7 @@ mod tests {
             },
             clamps: &[],
             own_only: false,
+            passage: None,
         }
         .at(&at);
         for (load, place) in loads.iter().zip(&lattice.coordinates) {

@@ -38,6 +38,35 @@ pub struct Certificate {
     pub outside_cone: usize,
     /// Deepest point of the cloth inside a body, 16 samples a cell [cm].
     pub deepest: f64,
+    /// Which equilibrium was proved, or was not.
+    pub equilibrium: Equilibrium,
+}
+
+/// The two kinds of equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Equilibrium {
+    /// Forces balance: the cloth stays where it is.
+    Static,
+    /// Forces balance with inertia and the air's resistance (d'Alembert): the cloth moves on.
+    Dynamic {
+        /// Greatest speed of a node [cm/s].
+        fastest: f64,
+        /// Kinetic energy of the whole [gf·cm].
+        kinetic_energy: f64,
+    },
+}
+
+/// Where a cloth in motion comes from: its last step of time, which its acceleration is found from.
+#[derive(Clone, Copy, Debug)]
+pub struct Passage<'a> {
+    /// Positions before the step [cm], one per node.
+    pub from: &'a [Vec3],
+    /// Velocities before it [cm/s], one per node.
+    pub velocities: &'a [Vec3],
+    /// How long it took [s].
+    pub step: f64,
+    /// Rate at which motion through still air dies down [1/s].
+    pub damping: f64,
 }
 
 /// What a shape is judged against.
@@ -59,6 +88,8 @@ pub struct Case<'a> {
     pub bodies: &'a Bodies,
     /// Friction and standoff.
     pub surface: Surface,
+    /// The last step of a cloth in motion; `None` of one at rest.
+    pub passage: Option<Passage<'a>>,
 }
 
 /// Deeper than this [cm] no point of a certified cloth is inside a body.
@@ -124,6 +155,7 @@ pub fn certify(case: &Case<'_>, at: &[Vec3], tolerance: f64, remaining_move: f64
         pulled,
         outside_cone: failing.len() - pulled,
         deepest: deepest(case.lattice, case.bodies, at),
+        equilibrium: case.loads().equilibrium(at),
     }
 }
 
@@ -147,6 +179,7 @@ impl Case<'_> {
             laws: self.laws,
             clamps: self.clamps,
             own_only: self.own_only,
+            passage: self.passage,
         }
     }
 

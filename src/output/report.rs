@@ -146,7 +146,7 @@ impl Work {
 mod tests {
     use super::*;
     use crate::{
-        certificate::{Certificate, DrapeShape},
+        certificate::{Certificate, DrapeShape, Equilibrium},
         output::sample,
         solver,
     };
@@ -157,6 +157,7 @@ mod tests {
             holding: Vec::new(),
             footing: crate::contact::Footing::default(),
             contact: vec![0.0; positions.len()],
+            velocities: vec![Vec3::zeros(); positions.len()],
             lattice,
             positions,
             certificate: Certificate {
@@ -168,6 +169,7 @@ mod tests {
                 pulled: 1,
                 outside_cone: 2,
                 deepest: 0.0,
+                equilibrium: Equilibrium::Static,
             },
             converged: false,
             shape: DrapeShape {

@@ -123,6 +123,7 @@ pub(super) fn case_of<'a>(
         held: &start.held,
         bodies: &problem.bodies,
         surface,
+        passage: None,
     }
 }
 
@@ -182,9 +183,11 @@ pub(super) fn finish(
     remaining: f64,
 ) -> Settled {
     let certificate = certify(case, &level.at, settings.tolerance, remaining);
-    let pulls = level.sheet.forces(&level.at).into_iter();
+    let mut pulls = level.sheet.forces(&level.at);
+    level.add_momentum(&level.at, &mut pulls);
     let held = case.held.iter();
     let holding = pulls
+        .into_iter()
         .zip(held)
         .map(|(pull, held)| if *held { -pull } else { Vec3::zeros() });
     Settled {
@@ -192,6 +195,7 @@ pub(super) fn finish(
         lattice: level.lattice.clone(),
         contact: level.touches.loads(&level.at),
         footing: level.touches.footing(&level.at, case.bodies),
+        velocities: velocities(case, &level.at),
         converged: certificate.holds(settings.tolerance),
         shape: drape_shape(case, &level.at),
         certificate,
@@ -199,5 +203,16 @@ pub(super) fn finish(
         levels,
         frames: Vec::new(),
         positions: level.at,
+    }
+}
+
+/// What the nodes have of the last step [cm/s].
+fn velocities(case: &Case<'_>, at: &[Vec3]) -> Vec<Vec3> {
+    match &case.passage {
+        Some(passage) => {
+            let ways = at.iter().zip(passage.from);
+            ways.map(|(to, from)| (to - from) / passage.step).collect()
+        }
+        None => vec![Vec3::zeros(); at.len()],
     }
 }

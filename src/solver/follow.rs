@@ -65,7 +65,7 @@ pub(super) fn go_on(
 }
 
 /// Whether there is a way from a drape to a problem.
-fn same_cloth(
+pub(super) fn same_cloth(
     problem: &Problem,
     through: &[Bodies],
     (positions, footing): (&[Vec3], &Footing),
@@ -84,13 +84,13 @@ fn same_cloth(
 }
 
 /// A loaded node lies so deep in a body at most [cm]; one that is deeper was overrun by it.
-const PRESSED: f64 = 0.05;
+pub(super) const PRESSED: f64 = 0.05;
 
 /// A held node's way: where it starts, and how far it goes [cm].
-struct Carried {
-    node: usize,
-    from: Vec3,
-    way: Vec3,
+pub(super) struct Carried {
+    pub(super) node: usize,
+    pub(super) from: Vec3,
+    pub(super) way: Vec3,
 }
 
 impl<'a> Run<'_> {
@@ -154,7 +154,7 @@ impl<'a> Run<'_> {
     }
 }
 
-fn carried(level: &Level<'_>, start: &Start) -> Vec<Carried> {
+pub(super) fn carried(level: &Level<'_>, start: &Start) -> Vec<Carried> {
     let carried = start.carry.iter().map(|(node, carry)| {
         let node = *node as usize;
         let from = level.at[node];
@@ -175,7 +175,7 @@ const TOUCHED: f64 = 1.0;
 /// Takes every node along as the bodies near it go, the nearer the more (Shepard 1968), and as all
 /// that the cloth holds on to where none is near: so what lies on a part stays on it, and what hangs
 /// between two is not torn.
-fn go_along(at: &mut [Vec3], held: &[bool], before: &Footing, now: &Footing) {
+pub(super) fn go_along(at: &mut [Vec3], held: &[bool], before: &Footing, now: &Footing) {
     let whole = Whole::of(before, now);
     let (from, to) = (before.bodies(), now.bodies());
     let gone = threads::map(at.len(), |node| {

@@ -92,6 +92,15 @@ impl Step {
 
 impl Joint {
     pub(super) fn new(level: &Level<'_>) -> Self {
+        Self::damped_by(level, FIRST_DAMPING / level.lattice.pitch)
+    }
+
+    /// Of a cloth in motion, which inertia steadies.
+    pub(super) fn undamped(level: &Level<'_>) -> Self {
+        Self::damped_by(level, 0.0)
+    }
+
+    fn damped_by(level: &Level<'_>, damping: f64) -> Self {
         let (way, pattern) = Way::of(level);
         let free: Vec<u32> = (0..level.at.len() as u32)
             .filter(|node| !level.held[*node as usize])
@@ -100,7 +109,7 @@ impl Joint {
             way,
             layout: Layout::new(&pattern, [free.as_slice()]).into(),
             pattern,
-            damping: vec![FIRST_DAMPING / level.lattice.pitch; level.at.len()],
+            damping: vec![damping; level.at.len()],
             radius: 0.2 * level.lattice.pitch,
             sight: 0.0,
         }
@@ -118,6 +127,12 @@ impl Joint {
         level.touches.stiffness(at, &mut |row, column, block| {
             matrix.add(row, column, block);
         });
+        if let Some(momentum) = &level.momentum {
+            for node in 0..at.len() {
+                let block = Mat3::identity() * momentum.stiffness(node);
+                matrix.add(node as u32, node as u32, &block);
+            }
+        }
         matrix
     }
 
@@ -153,12 +168,21 @@ impl Joint {
     /// One step; the level has just looked at its touches. Where the shape is not stable, or rest is
     /// not near, a `bold` step follows the energy's fall, and one that is not is `None`.
     pub(super) fn step(&mut self, level: &mut Level<'_>, bold: bool) -> Option<Step> {
+        self.step_after(level, bold, bold)
+    }
+
+    /// A bold step after a search to the end: where one or two are all that a cloth needs.
+    pub(super) fn sure_step(&mut self, level: &mut Level<'_>) -> Option<Step> {
+        self.step_after(level, false, true)
+    }
+
+    fn step_after(&mut self, level: &mut Level<'_>, rough: bool, bold: bool) -> Option<Step> {
         level.joint_steps += 1;
         let forces = level.forces(&level.at);
         let leader = self.leader(level)?;
         let exact = self.packed(&self.assembled(level, false));
         let far = level.lattice.pitch;
-        let (moves, exact) = match exact_answer(&leader, &exact, &forces, far, bold) {
+        let (moves, exact) = match exact_answer(&leader, &exact, &forces, far, rough) {
             Answer::Moves(moves) if longest(&moves) < NEAR * far => (moves, true),
             Answer::Moves(moves) | Answer::Downhill(moves) if bold => (moves, false),
             _ => return None,

@@ -2,7 +2,12 @@
 
 use super::{Level as LevelWork, start::number, stream::Stream};
 use crate::{
-    body::Bodies, certificate::Case, contact::Touches, forces::Sheet, lattice::Lattice, math::Vec3,
+    body::Bodies,
+    certificate::Case,
+    contact::Touches,
+    forces::{Momentum, Sheet},
+    lattice::Lattice,
+    math::Vec3,
     threads,
 };
 
@@ -13,6 +18,8 @@ pub(super) struct Level<'a> {
     pub(super) sheet: Sheet<'a>,
     pub(super) bodies: &'a Bodies,
     pub(super) touches: Touches,
+    /// How nodes go on by themselves over a step of time; `None` of a cloth that comes to rest.
+    pub(super) momentum: Option<Momentum>,
     /// Which nodes are held.
     pub(super) held: Vec<bool>,
     /// Free nodes by colour.
@@ -41,6 +48,7 @@ impl<'a> Level<'a> {
             sheet: Sheet::new(case.lattice, case.fabric, case.laws, case.clamps),
             bodies: case.bodies,
             touches,
+            momentum: None,
             held: case.held.to_vec(),
             colours: colours
                 .map(|nodes| nodes.into_iter().filter(free).collect())
@@ -66,21 +74,35 @@ impl<'a> Level<'a> {
         }
     }
 
-    /// Energy of cloth, weight and touches [gf·cm].
+    /// Energy of cloth, weight, touches and momentum [gf·cm].
     pub(super) fn energy(&self, at: &[Vec3]) -> f64 {
-        self.sheet.energy(at) + self.touches.energy(at)
+        let still = self.sheet.energy(at) + self.touches.energy(at);
+        match &self.momentum {
+            Some(momentum) => still + momentum.energy(at),
+            None => still,
+        }
     }
 
-    /// Forces of cloth, weight and touches; none on held nodes [gf].
+    /// Forces of cloth, weight, touches and momentum; none on held nodes [gf].
     pub(super) fn forces(&self, at: &[Vec3]) -> Vec<Vec3> {
         let mut forces = self.sheet.forces(at);
         self.touches.add_forces(at, &mut forces);
+        self.add_momentum(at, &mut forces);
         for (force, held) in forces.iter_mut().zip(&self.held) {
             if *held {
                 *force = Vec3::zeros();
             }
         }
         forces
+    }
+
+    /// Adds what inertia and air do to the nodes [gf].
+    pub(super) fn add_momentum(&self, at: &[Vec3], forces: &mut [Vec3]) {
+        if let Some(momentum) = &self.momentum {
+            for (node, (force, here)) in forces.iter_mut().zip(at).enumerate() {
+                *force += momentum.force(node, here);
+            }
+        }
     }
 
     /// Forces that have a part in every move of the whole: those of no law, by the nodes' numbers

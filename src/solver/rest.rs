@@ -29,9 +29,9 @@ const SETTLED: f64 = 1e-3;
 /// A node on a sharp feature may swing between two equilibria this near to each other [cm]: after
 /// as many rounds as patience lasts, either is accepted, and the swing is reported as the move
 /// that remains.
-const SWINGING: f64 = 0.02;
+pub(super) const SWINGING: f64 = 0.02;
 /// Rounds of short steps before a swing is accepted.
-const PATIENCE: usize = 8;
+pub(super) const PATIENCE: usize = 8;
 /// Rounds of short steps before their contraction is known: an estimate is the worst of so many.
 const ACQUAINTED: usize = 3;
 /// While the cloth lands, friction is so many times as strong: the forces of a cloth far from rest
@@ -394,7 +394,7 @@ impl Standing {
 
 impl Joint {
     /// Looks for bodies as far as a step may go after one of `made` [cm].
-    fn look(&mut self, level: &mut Level<'_>, made: f64) {
+    pub(super) fn look(&mut self, level: &mut Level<'_>, made: f64) {
         let way = 0.8 * level.lattice.pitch;
         self.sight = (3.0 * made).clamp(0.02 * level.lattice.pitch, way);
         level.look(way, self.sight);

@@ -4,7 +4,11 @@
 //! on their order. The paper's own ten forces are visited here, one by one.
 
 use super::level::Level;
-use crate::{forces::paper_forces, math::Vec3, threads};
+use crate::{
+    forces::paper_forces,
+    math::{Mat3, Vec3},
+    threads,
+};
 
 /// A node moves at most this part of a pitch at a visit: farther, its neighbours' places mean
 /// nothing.
@@ -38,6 +42,10 @@ impl Level<'_> {
         let (push, block) = self.touches.pull(node, &self.at);
         pull.force += push;
         pull.stiffness += block;
+        if let Some(momentum) = &self.momentum {
+            pull.force += momentum.force(node, &here);
+            pull.stiffness += Mat3::identity() * momentum.stiffness(node);
+        }
         let floor = self.sheet.measures()[node] / self.lattice.pitch;
         for axis in 0..3 {
             pull.stiffness[(axis, axis)] += floor;

@@ -160,7 +160,7 @@ impl Visit<'_> {
         self.freely(simd, there)
     }
 
-    /// Adds what is no matter of the grid: touches and vices.
+    /// Adds what is no matter of the grid: touches, vices and momentum.
     #[inline(never)]
     fn add_others<S: Simd>(&self, simd: S, force: &mut Points<S>, blocks: &mut Blocks<S>) {
         let mut numbers = [[0.0; WIDEST]; 9];
@@ -253,13 +253,17 @@ fn reached<S: Simd>(before: Lanes<S>, after: Lanes<S>) -> Lanes<S> {
 impl Level<'_> {
     /// Whether something acts on a node that its stencil does not know.
     fn meets_more(&self, node: u32) -> bool {
-        node != NONE && (self.touches.meets(node as usize) || self.vices[node as usize])
+        node != NONE
+            && (self.touches.meets(node as usize)
+                || self.vices[node as usize]
+                || self.momentum.is_some())
     }
 
     /// [`forces`](Level::forces), near enough to travel by: to some 1e-9 of the laws' own size.
     pub(super) fn quick_forces(&mut self) -> Vec<Vec3> {
         let mut forces = self.stream_forces();
         self.touches.add_forces(&self.at, &mut forces);
+        self.add_momentum(&self.at, &mut forces);
         for (node, force) in forces.iter_mut().enumerate() {
             if self.held[node] {
                 *force = Vec3::zeros();
@@ -280,6 +284,10 @@ impl Level<'_> {
             force += vice.force;
             block += vice.stiffness;
         }
+        if let Some(momentum) = &self.momentum {
+            force += momentum.force(node, &self.at[node]);
+            block += Mat3::identity() * momentum.stiffness(node);
+        }
         (force, block)
     }
 
@@ -289,6 +297,9 @@ impl Level<'_> {
             && let Some(vice) = self.sheet.vice(node, &self.at)
         {
             force += vice.force - vice.stiffness * way;
+        }
+        if let Some(momentum) = &self.momentum {
+            force += momentum.force(node, &(self.at[node] + way));
         }
         force
     }

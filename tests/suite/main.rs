@@ -8,6 +8,7 @@
 //! - `figures`: what the paper says of its figures is so, and the README gives the numbers.
 //! - `maps`: heat maps of cloths whose values are known beforehand.
 //! - `follow`: drapes go on while bodies and holds move, and friction remembers.
+//! - `dynamics`: cloth with inertia falls, swings, slips and comes to rest as mechanics says.
 //! - `holds`: hands bear the weight of what they hold, and a rolled-up cloth is as long as it was.
 //! - `fuzz`: no bytes make the readers panic.
 //! - `starts`: no scene that they allow makes the solver panic.
@@ -31,6 +32,7 @@ mod bad_files;
 mod bad_input;
 mod cli;
 mod determinism;
+mod dynamics;
 mod figures;
 mod fit;
 mod follow;

@@ -1,0 +1,435 @@
+//! Cloth with inertia: what mechanics knows in closed form, and at the end of it rest.
+
+use crate::specimen::{fabric, linear, scene};
+use soen::{
+    body::{Bodies, Part, Shape},
+    certificate::Equilibrium,
+    contact::Footing,
+    forces::Laws,
+    lattice::{Edge, Outline, Piece},
+    math::{Pose, Vec3},
+    solver::{
+        Dynamics, ForceModel, Grip, Hold, Placement, Problem, Settings, Settled, Unsolvable,
+        settle, step,
+    },
+};
+
+const SETTINGS: Settings = Settings {
+    tolerance: 1e-3,
+    frames: 0,
+};
+/// Standard gravity [cm/s²].
+const G: f64 = 980.665;
+
+/// A cloth that nothing holds.
+fn loose(warp: f64, weft: f64) -> Problem {
+    let fabric = fabric("c");
+    Problem {
+        piece: Piece {
+            outline: Outline::rectangle(warp, weft).unwrap(),
+            grain: 0.0,
+            pitch: 1.0,
+        },
+        placement: Placement {
+            centre: Vec3::zeros(),
+            x_axis: Vec3::x(),
+            y_axis: Vec3::y(),
+            curl: 0.0,
+        },
+        holds: vec![],
+        bodies: Bodies::default(),
+        friction: 0.3,
+        thickness: fabric.thickness,
+        laws: Laws::default(),
+        forces: ForceModel::Lattice,
+        seed: 1,
+        fabric,
+    }
+}
+
+/// The flat cloth of a problem [cm].
+fn flat(problem: &Problem) -> Vec<Vec3> {
+    let lattice = problem.piece.cut(problem.piece.pitch).unwrap();
+    let place = |cloth| problem.placement.at(problem.piece.to_outline(cloth));
+    lattice.coordinates.iter().copied().map(place).collect()
+}
+
+/// A cloth on its way.
+struct Moving {
+    problem: Problem,
+    dynamics: Dynamics,
+    at: Vec<Vec3>,
+    velocities: Vec<Vec3>,
+    footing: Footing,
+}
+
+impl Moving {
+    fn new(problem: Problem, dynamics: Dynamics, at: Vec<Vec3>, velocities: Vec<Vec3>) -> Self {
+        Self {
+            footing: Footing::default(),
+            problem,
+            dynamics,
+            at,
+            velocities,
+        }
+    }
+
+    /// From a drape, at rest.
+    fn of(problem: Problem, dynamics: Dynamics, drape: &Settled) -> Self {
+        let still = vec![Vec3::zeros(); drape.positions.len()];
+        Self {
+            footing: drape.footing.clone(),
+            ..Self::new(problem, dynamics, drape.positions.clone(), still)
+        }
+    }
+
+    /// So many steps, over which bodies and holds go to where the problem has them.
+    fn go(&mut self, through: &[Bodies]) -> Settled {
+        let before = (self.at.as_slice(), &self.footing, &self.velocities[..]);
+        let watch = &mut |_: &_| true;
+        let now = step(
+            &self.problem,
+            through,
+            before,
+            self.dynamics,
+            &SETTINGS,
+            watch,
+        )
+        .unwrap();
+        self.at.clone_from(&now.positions);
+        self.velocities.clone_from(&now.velocities);
+        self.footing = now.footing.clone();
+        now
+    }
+
+    fn wait(&mut self, steps: usize) -> Settled {
+        let still = vec![self.problem.bodies.clone(); steps - 1];
+        self.go(&still)
+    }
+}
+
+fn mean(vectors: &[Vec3]) -> Vec3 {
+    vectors.iter().sum::<Vec3>() / vectors.len() as f64
+}
+
+/// Backward Euler falls ½·g·h²·n·(n + 1) in n steps.
+#[test]
+fn a_loose_cloth_falls_as_the_scheme_says_and_in_the_limit_as_galileo_says() {
+    let problem = loose(4.0, 3.0);
+    let fall = |step: f64, steps: usize| {
+        let start = flat(&problem);
+        let still = vec![Vec3::zeros(); start.len()];
+        let dynamics = Dynamics { step, damping: 0.0 };
+        let mut cloth = Moving::new(problem.clone(), dynamics, start.clone(), still);
+        let end = cloth.wait(steps);
+        assert!(end.converged, "{:?}", end.certificate);
+        let falls = start.iter().zip(&end.positions).map(|(a, b)| a - b);
+        falls.collect::<Vec<_>>()
+    };
+    for (step, n) in [(0.01, 10), (0.002, 25)] {
+        let expected = 0.5 * G * step * step * (n * (n + 1)) as f64;
+        for way in fall(step, n) {
+            assert!((way.z / expected - 1.0).abs() < 1e-9, "{way:?} {expected}");
+            assert!(way.xy().norm() < 1e-9 * expected);
+        }
+    }
+    // Errors of first order: twice the finer less the coarser is Galileo's.
+    let (coarse, fine) = (fall(0.01, 10)[0].z, fall(0.005, 20)[0].z);
+    assert!(((2.0 * fine - coarse) / (0.5 * G * 0.01) - 1.0).abs() < 1e-9);
+}
+
+/// v = g/c where the air bears the weight.
+#[test]
+fn a_loose_cloth_in_air_falls_at_its_terminal_speed() {
+    let problem = loose(3.0, 3.0);
+    let start = flat(&problem);
+    let still = vec![Vec3::zeros(); start.len()];
+    let dynamics = Dynamics {
+        step: 0.05,
+        damping: 20.0,
+    };
+    let mut cloth = Moving::new(problem, dynamics, start, still);
+    let end = cloth.wait(40);
+    // What is missing shrinks to half with every step, 1 + c·h = 2.
+    let terminal = G / 20.0;
+    for velocity in &end.velocities {
+        assert!((velocity.z / -terminal - 1.0).abs() < 1e-9, "{velocity:?}");
+    }
+    let Equilibrium::Dynamic {
+        fastest,
+        kinetic_energy,
+    } = end.certificate.equilibrium
+    else {
+        panic!("it moves");
+    };
+    let mass = 9.0 * fabric("c").weight / G;
+    assert!((fastest / terminal - 1.0).abs() < 1e-9);
+    assert!((kinetic_energy / (0.5 * mass * terminal * terminal) - 1.0).abs() < 1e-9);
+}
+
+/// No horizontal force, no change of horizontal momentum (Newton); and no more energy than there was.
+#[test]
+fn a_thrown_cloth_keeps_its_horizontal_velocity_and_gains_no_energy() {
+    let problem = loose(8.0, 6.0);
+    let at = flat(&problem);
+    let thrown = |at: &Vec3| {
+        let whirl = Vec3::new(-at.y, at.x, 2.0 * libm::sin(at.x)) * 4.0;
+        Vec3::new(80.0, -30.0, 50.0) + whirl
+    };
+    let velocities: Vec<Vec3> = at.iter().map(thrown).collect();
+    let lattice = problem.piece.cut(1.0).unwrap();
+    let momentum = |velocities: &[Vec3]| {
+        let parts = lattice.area.iter().zip(velocities);
+        parts.map(|(area, v)| v * *area).sum::<Vec3>() / lattice.area.iter().sum::<f64>()
+    };
+    let first = momentum(&velocities);
+    let dynamics = Dynamics {
+        step: 0.005,
+        damping: 0.0,
+    };
+    let mut cloth = Moving::new(problem, dynamics, at, velocities);
+    let mut energies = vec![];
+    for _ in 0..30 {
+        let now = cloth.wait(1);
+        assert!(now.converged, "{:?}", now.certificate);
+        let Equilibrium::Dynamic { kinetic_energy, .. } = now.certificate.equilibrium else {
+            panic!("it moves");
+        };
+        energies.push(kinetic_energy + now.shape.energy);
+    }
+    let off = (momentum(&cloth.velocities) - first).xy().norm();
+    println!("horizontal velocity off by {off} cm/s; energies {energies:?}");
+    assert!(off < 1e-4, "{off} cm/s");
+    assert!(energies.windows(2).all(|pair| pair[1] < pair[0] + 1e-9));
+}
+
+/// A strip that hangs from its edge x-min, along −z.
+fn hanging(length: f64) -> Problem {
+    let mut problem = loose(length, 1.0);
+    problem.fabric = linear(&problem.fabric);
+    // Heavy and without bending: a chain.
+    problem.fabric.warp.bending = 0.0;
+    problem.fabric.weft.bending = 0.0;
+    problem.placement.x_axis = -Vec3::z();
+    problem.placement.y_axis = Vec3::y();
+    problem.holds = vec![Hold {
+        grip: Grip::Edge(Edge::XMin),
+        clamp: false,
+        carry: Vec3::zeros(),
+    }];
+    problem
+}
+
+/// ω = ½·2.4048·√(g/L) (D. Bernoulli 1733), the mode J₀(2.4048·√(s/L)) at s above the free end.
+#[test]
+fn a_hanging_strip_swings_as_bernoullis_chain() {
+    const ROOT: f64 = 2.404_825_557_695_773;
+    let length = 20.0;
+    let problem = hanging(length);
+    let drape = settle(&problem, &SETTINGS, &mut |_| true).unwrap();
+    let low = drape.shape.lowest;
+    let tip = (0..drape.positions.len())
+        .min_by(|a, b| drape.positions[*a].z.total_cmp(&drape.positions[*b].z))
+        .unwrap();
+    let long = drape.shape.highest - low;
+    let period = |step: f64| {
+        let dynamics = Dynamics { step, damping: 0.0 };
+        let mut cloth = Moving::of(problem.clone(), dynamics, &drape);
+        for at in &mut cloth.at {
+            at.x += 0.3 * libm::j0(ROOT * ((at.z - low).max(0.0) / long).sqrt());
+        }
+        let (mut zeros, mut before) = (vec![], cloth.at[tip].x);
+        for n in 1.. {
+            let now = cloth.wait(1);
+            assert!(now.converged, "{:?}", now.certificate);
+            let x = now.positions[tip].x;
+            if before.signum() != x.signum() {
+                zeros.push(step * (f64::from(n) - x / (x - before)));
+            }
+            before = x;
+            if zeros.len() == 3 {
+                return zeros[2] - zeros[0];
+            }
+        }
+        unreachable!()
+    };
+    let (coarse, fine) = (period(0.01), period(0.005));
+    let expected = 2.0 * std::f64::consts::PI / (0.5 * ROOT * (G / long).sqrt());
+    let limit = 2.0 * fine - coarse;
+    println!("period {coarse}, {fine}, in the limit {limit}; chain {expected} s of {long} cm");
+    assert!((fine / expected - 1.0).abs() < 0.03);
+    assert!((limit / expected - 1.0).abs() < 0.02);
+}
+
+/// A slab whose top is level, moved along x.
+fn slab(x: f64) -> Bodies {
+    let shape = Shape::Cuboid {
+        size: Vec3::new(100.0, 30.0, 2.0),
+    };
+    let pose = Pose::translation(x, 0.0, -1.0);
+    Bodies::new(vec![Part::new("slab".into(), &shape, pose).unwrap()])
+}
+
+/// Coulomb: up to µ·g the cloth goes along, beyond it is left behind by ½·(a − µ·g)·t².
+#[test]
+fn cloth_on_a_slab_goes_with_it_up_to_the_limit_of_friction_and_slips_beyond() {
+    let mut problem = loose(4.0, 4.0);
+    problem.placement.centre.z = 0.5;
+    problem.bodies = slab(0.0);
+    let rest = settle(&problem, &SETTINGS, &mut |_| true).unwrap();
+    assert!(rest.converged, "{:?}", rest.certificate);
+    let dynamics = Dynamics {
+        step: 0.005,
+        damping: 0.0,
+    };
+    let (steps, limit) = (40, problem.friction * G);
+    let time = steps as f64 * dynamics.step;
+    let behind = |acceleration: f64| {
+        let place = |k: usize| 0.5 * acceleration * (k as f64 * dynamics.step).powi(2);
+        let through: Vec<Bodies> = (1..steps).map(|k| slab(place(k))).collect();
+        let mut moved = problem.clone();
+        moved.bodies = slab(place(steps));
+        let end = Moving::of(moved, dynamics, &rest).go(&through);
+        assert!(end.converged, "{acceleration}: {:?}", end.certificate);
+        let gone = mean(&end.positions) - mean(&rest.positions);
+        assert!(gone.y.abs() < 1e-3 && gone.z.abs() < 0.01, "{gone:?}");
+        place(steps) - gone.x
+    };
+    let slow = behind(0.8 * limit);
+    println!("0.8 of the limit: behind by {slow} cm");
+    // What friction gives before it holds, and a step's delay.
+    assert!(slow.abs() < 0.02, "{slow} cm behind");
+    for times in [1.5, 3.0] {
+        let slipped = behind(times * limit);
+        let expected = 0.5 * (times - 1.0) * limit * time * time;
+        println!("{times} of the limit: behind by {slipped} cm, Coulomb {expected} cm");
+        assert!(
+            (slipped / expected - 1.0).abs() < 0.03,
+            "{slipped} cm, {expected} cm"
+        );
+    }
+}
+
+/// A cloth over a ball, pinned to its top.
+fn pinned() -> Problem {
+    let mut problem = scene(
+        "[cloth]\nfabric = \"c\"\nsize_cm = [16, 16]\nspacing_cm = 1\ncentre_cm = [0, 0, 6.03]\n\
+         [contact]\nfriction = 0.0\n[[hold]]\npoint_cm = [0, 0]\n[[body]]\nball = { radius_cm = 6 }\n",
+    )
+    .problem;
+    problem.seed = 3;
+    problem
+}
+
+#[test]
+fn motion_that_dies_down_ends_at_the_drape_at_rest() {
+    let problem = pinned();
+    let rest = settle(&problem, &SETTINGS, &mut |_| true).unwrap();
+    assert!(rest.converged, "{:?}", rest.certificate);
+    let dynamics = Dynamics {
+        step: 0.02,
+        damping: 8.0,
+    };
+    let mut cloth = Moving::of(problem.clone(), dynamics, &rest);
+    // A gust.
+    for velocity in &mut cloth.velocities {
+        *velocity = Vec3::new(30.0, 10.0, 5.0);
+    }
+    let off = |now: &Settled| {
+        let pairs = now.positions.iter().zip(&rest.positions);
+        pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+    };
+    let mut far = 0.0_f64;
+    for _ in 0..5 {
+        let now = cloth.wait(2);
+        assert!(now.converged, "{:?}", now.certificate);
+        far = far.max(off(&now));
+    }
+    let last = cloth.wait(150);
+    println!("away by {far} cm, in the end by {} cm", off(&last));
+    println!("{:?}", last.certificate);
+    assert!(far > 0.5, "{far} cm");
+    assert!(last.converged);
+    assert!(off(&last) < 0.1, "{} cm", off(&last));
+    // At rest by the certificate of statics too.
+    let watch = &mut |_: &_| false;
+    let state = (&last.positions[..], &last.footing);
+    let still = soen::solver::go_on(&problem, &[], state, &SETTINGS, watch).unwrap();
+    assert_eq!(still.certificate.equilibrium, Equilibrium::Static);
+    println!("{:?}", still.certificate);
+    assert!(still.certificate.residual_max <= SETTINGS.tolerance);
+}
+
+#[test]
+fn a_cloth_in_motion_has_the_same_bits_on_any_number_of_threads_and_gone_on_from_between() {
+    let mut problem = pinned();
+    problem.friction = 0.3;
+    let rest = settle(&problem, &SETTINGS, &mut |_| true).unwrap();
+    let dynamics = Dynamics {
+        step: 0.005,
+        damping: 3.0,
+    };
+    let moved = |by: f64| {
+        let shape = Shape::Ball { radius: 6.0 };
+        let part = Part::new("ball".into(), &shape, Pose::translation(by, 0.0, 0.0));
+        Bodies::new(vec![part.unwrap()])
+    };
+    let on = |count: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+        pool.unwrap().install(|| {
+            let mut cloth = Moving::of(problem.clone(), dynamics, &rest);
+            cloth.problem.bodies = moved(0.1);
+            cloth.problem.holds[0].carry.x = 0.1;
+            let one = cloth.go(&[moved(0.05)]);
+            let numbers = cloth.footing.numbers();
+            cloth.footing =
+                Footing::from_numbers(&numbers, moved(0.1), &one.lattice).expect("it is kept");
+            cloth.problem.bodies = moved(0.2);
+            cloth.problem.holds[0].carry.x = 0.2;
+            let two = cloth.go(&[moved(0.15)]);
+            let numbers = two.positions.iter().chain(&two.velocities).flatten();
+            numbers.map(|x| x.to_bits()).collect::<Vec<_>>()
+        })
+    };
+    let one = on(1);
+    assert!(one == on(2), "1 thread and 2");
+    assert!(one == on(7), "1 thread and 7");
+}
+
+#[test]
+fn steps_that_cannot_be_taken_are_refused() {
+    let problem = loose(3.0, 3.0);
+    let at = flat(&problem);
+    let go = |step_s: f64, damping: f64, velocity: f64, nodes: usize| {
+        let velocities = vec![Vec3::repeat(velocity); nodes];
+        let dynamics = Dynamics {
+            step: step_s,
+            damping,
+        };
+        let before = (&at[..], &Footing::default(), &velocities[..]);
+        let settled = step(&problem, &[], before, dynamics, &SETTINGS, &mut |_| true);
+        settled.map(|_| ()).map_err(|error| error.to_string())
+    };
+    let nodes = at.len();
+    assert_eq!(go(0.01, 0.0, 1.0, nodes), Ok(()));
+    for (step, damping, velocity, said) in [
+        (0.0, 0.0, 0.0, "a step of time is 0; allowed: 1e-6 to 10 s"),
+        (
+            f64::NAN,
+            0.0,
+            0.0,
+            "a step of time is NaN; allowed: 1e-6 to 10 s",
+        ),
+        (
+            0.1,
+            -1.0,
+            0.0,
+            "damping is -1; allowed: 0 to 1e4 per second",
+        ),
+        (0.1, 0.0, f64::NAN, "a speed is NaN; allowed: 0 to 1e6 cm/s"),
+    ] {
+        assert_eq!(go(step, damping, velocity, nodes), Err(said.into()));
+    }
+    let changed = Unsolvable::Changed.to_string();
+    assert_eq!(go(0.1, 0.0, 0.0, nodes - 1), Err(changed));
+}
