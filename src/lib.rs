@@ -4,7 +4,8 @@
 //! brackets, (1) to (8), are that paper's equations, and its figures are scenes in `scenes/`.
 //!
 //! It promises a shape at rest: the certificate recomputes the forces from the positions alone,
-//! without the solver. It does not promise the only shape at rest, for cloth has many (the scene's
+//! without the solver. Cloth in motion may have inertia ([`solver::step`]); then it promises, frame by
+//! frame, that forces balance with it. It does not promise the only shape at rest, for cloth has many (the scene's
 //! seed picks one), nor that cloth keeps clear of itself.
 //!
 //! ```
@@ -58,8 +59,8 @@
 //! - `certificate` shares no sum, list or derivative with `solver`.
 //!
 //! And what is always absent:
-//! - time, but in `motion` and `play`, which pose bodies by it. There are no velocities and no masses,
-//!   only weights: this is statics;
+//! - time, but in `motion` and `play`, which pose bodies by it, and in [`solver::step`], the one place
+//!   with velocities. Masses are weights over standard gravity (`src/forces/momentum.rs`);
 //! - a body inside `fabric` or `forces`, a material inside `lattice`, a scene inside `solver`;
 //! - files outside `scene` and `output`, and clocks, arguments and printing outside the command
 //!   line: the rest compiles to wasm32;

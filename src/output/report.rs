@@ -1,6 +1,6 @@
 //! `report.json`: the certificate and the figures of a drape (design §7).
 
-use crate::{math::Vec3, solver::Settled};
+use crate::{certificate::Equilibrium, math::Vec3, solver::Settled};
 use serde::Serialize;
 
 /// What a report says beside the drape itself.
@@ -49,6 +49,13 @@ struct Proof {
     outside_cone: usize,
     deepest_cm: f64,
     self_crossings: Option<usize>,
+    /// Of a cloth in motion; of one at rest nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    equilibrium: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fastest_cm_per_s: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kinetic_energy_gf_cm: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -96,6 +103,13 @@ impl<'a> Report<'a> {
 impl Proof {
     fn new(settled: &Settled) -> Self {
         let proof = &settled.certificate;
+        let motion = match proof.equilibrium {
+            Equilibrium::Static => None,
+            Equilibrium::Dynamic {
+                fastest,
+                kinetic_energy,
+            } => Some((fastest, kinetic_energy)),
+        };
         Self {
             residual_max: proof.residual_max,
             residual_rms: proof.residual_rms,
@@ -106,6 +120,9 @@ impl Proof {
             outside_cone: proof.outside_cone,
             deepest_cm: proof.deepest,
             self_crossings: None,
+            equilibrium: motion.map(|_| "dynamic"),
+            fastest_cm_per_s: motion.map(|(fastest, _)| fastest),
+            kinetic_energy_gf_cm: motion.map(|(_, energy)| energy),
         }
     }
 }
@@ -146,7 +163,7 @@ impl Work {
 mod tests {
     use super::*;
     use crate::{
-        certificate::{Certificate, DrapeShape, Equilibrium},
+        certificate::{Certificate, DrapeShape},
         output::sample,
         solver,
     };

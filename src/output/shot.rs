@@ -1,20 +1,24 @@
 //! A frame as it is kept: what the next one goes on from, to the last bit, and its proof.
 //!
-//! The file (`soen frame 1`): 16 bytes of name, then 8-byte words, little-endian: the digest of what
-//! it is a frame of, the counts of nodes and of numbers, the proof, positions [cm], numbers, and a
-//! digest of all words before.
+//! The file (`soen frame 2`): 16 bytes of name, then 8-byte words, little-endian: the digest of what
+//! it is a frame of, the counts of nodes and of numbers, the proof, positions [cm], velocities [cm/s],
+//! numbers, and a digest of all words before.
 
-use crate::{contact::Footing, math::Vec3, solver::Settled};
+use crate::{certificate::Equilibrium, contact::Footing, math::Vec3, solver::Settled};
 
 /// A frame that was made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
     /// Positions [cm], one per node.
     pub positions: Vec<Vec3>,
+    /// Velocities [cm/s], one per node.
+    pub velocities: Vec<Vec3>,
     /// Where friction holds on ([`Footing::numbers`]).
     pub footing: Vec<f64>,
     /// Whether all of its certificate holds.
     pub converged: bool,
+    /// Which equilibrium it is of.
+    pub equilibrium: Equilibrium,
     /// Greatest residual [-].
     pub residual_max: f64,
     /// Estimate of the farthest node's way to rest [cm].
@@ -25,9 +29,9 @@ pub struct Shot {
     pub heights: [f64; 2],
 }
 
-const NAME: &[u8; 16] = b"soen frame 1\n\0\0\0";
-/// Words before the positions: digest, two counts, six of the proof.
-const HEAD: usize = 9;
+const NAME: &[u8; 16] = b"soen frame 2\n\0\0\0";
+/// Words before the positions: digest, two counts, nine of the proof.
+const HEAD: usize = 12;
 
 impl Shot {
     /// Of a drape.
@@ -36,8 +40,10 @@ impl Shot {
         let (positions, footing) = settled.state();
         Self {
             positions: positions.to_vec(),
+            velocities: settled.velocities.clone(),
             footing: Footing::numbers(footing),
             converged: settled.converged,
+            equilibrium: settled.certificate.equilibrium,
             residual_max: settled.certificate.residual_max,
             remaining_move: settled.certificate.remaining_move,
             deepest: settled.certificate.deepest,
@@ -48,6 +54,13 @@ impl Shot {
     /// The file, for a frame of what has this digest.
     #[must_use]
     pub fn to_bytes(&self, of: u64) -> Vec<u8> {
+        let [kind, fastest, kinetic_energy] = match self.equilibrium {
+            Equilibrium::Static => [0.0; 3],
+            Equilibrium::Dynamic {
+                fastest,
+                kinetic_energy,
+            } => [1.0, fastest, kinetic_energy],
+        };
         let counts = [self.positions.len() as u64, self.footing.len() as u64];
         let proof = [
             f64::from(u8::from(self.converged)),
@@ -56,8 +69,12 @@ impl Shot {
             self.deepest,
             self.heights[0],
             self.heights[1],
+            kind,
+            fastest,
+            kinetic_energy,
         ];
-        let numbers = proof.iter().chain(self.positions.iter().flatten());
+        let vectors = self.positions.iter().chain(&self.velocities).flatten();
+        let numbers = proof.iter().chain(vectors);
         let numbers = numbers.chain(&self.footing).map(|number| number.to_bits());
         let words = [of].into_iter().chain(counts).chain(numbers);
         let mut bytes = NAME.to_vec();
@@ -82,22 +99,35 @@ impl Shot {
         let (head, body) = words.split_at_checked(HEAD)?;
         let nodes = usize::try_from(head[1]).ok()?.checked_mul(3)?;
         let numbers = usize::try_from(head[2]).ok()?;
-        if head[0] != of || body.len() != nodes.checked_add(numbers)? {
+        if head[0] != of || body.len() != nodes.checked_mul(2)?.checked_add(numbers)? {
             return None;
         }
         let number = |word: &u64| f64::from_bits(*word);
-        let (positions, footing) = body.split_at(nodes);
-        Some(Self {
-            positions: positions
+        let (positions, body) = body.split_at(nodes);
+        let (velocities, footing) = body.split_at(nodes);
+        let vectors = |words: &[u64]| {
+            let vectors = words
                 .chunks_exact(3)
-                .map(|place| Vec3::new(number(&place[0]), number(&place[1]), number(&place[2])))
-                .collect(),
+                .map(|words| Vec3::from_fn(|k, _| number(&words[k])));
+            vectors.collect()
+        };
+        Some(Self {
+            positions: vectors(positions),
+            velocities: vectors(velocities),
             footing: footing.iter().map(number).collect(),
             converged: number(&head[3]) == 1.0,
             residual_max: number(&head[4]),
             remaining_move: number(&head[5]),
             deepest: number(&head[6]),
             heights: [number(&head[7]), number(&head[8])],
+            equilibrium: if number(&head[9]) == 0.0 {
+                Equilibrium::Static
+            } else {
+                Equilibrium::Dynamic {
+                    fastest: number(&head[10]),
+                    kinetic_energy: number(&head[11]),
+                }
+            },
         })
     }
 }
@@ -117,8 +147,13 @@ mod tests {
     fn shot() -> Shot {
         Shot {
             positions: vec![Vec3::new(1.0, -2.0, 1.0 / 3.0), Vec3::zeros()],
+            velocities: vec![Vec3::new(-3.0, 1.0 / 7.0, 90.0), Vec3::zeros()],
             footing: vec![0.1, 0.2, 0.3],
             converged: true,
+            equilibrium: Equilibrium::Dynamic {
+                fastest: 90.1,
+                kinetic_energy: 1.0 / 9.0,
+            },
             residual_max: 1e-9,
             remaining_move: 2e-4,
             deepest: 0.01,

@@ -1,6 +1,6 @@
 //! One frame after the other.
 
-use super::{Cast, ENTRANCE};
+use super::{Cast, ENTRANCE, Pace};
 use crate::{
     body::PartError,
     contact::Footing,
@@ -15,6 +15,8 @@ pub struct Frames {
     pub count: usize,
     /// How many in a second [1/s].
     pub rate: f64,
+    /// How a cloth with inertia goes from one to the next; `None` where each is at rest.
+    pub pace: Option<Pace>,
 }
 
 impl Frames {

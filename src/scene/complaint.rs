@@ -75,7 +75,7 @@ fn in_backticks(message: &str) -> Vec<String> {
 fn in_words(expected: &str, steps: &[Step]) -> String {
     match expected {
         "f64" => "a number".into(),
-        "u64" => "a whole number, 0 or more".into(),
+        "u64" | "u32" => "a whole number, 0 or more".into(),
         "a boolean" => "true or false".into(),
         "a string" | "path string" => "a text in quotes".into(),
         "a sequence" => match steps {

@@ -289,6 +289,14 @@ pub(super) struct AnimationTable {
     pub(super) frames: u32,
     /// How many in a second; 24 where absent.
     pub(super) frames_per_s: Option<f64>,
+    /// Whether the cloth has inertia; where absent it has none, and is at rest in every frame.
+    #[serde(default)]
+    pub(super) dynamics: bool,
+    /// Steps of time from a frame to the next, with dynamics; 8 where absent.
+    pub(super) steps_per_frame: Option<u32>,
+    /// Rate at which motion through still air dies down, with dynamics; that of air on this cloth,
+    /// broadside on at 1 m/s, where absent.
+    pub(super) damping_per_s: Option<f64>,
 }
 
 /// The file's unit of length.

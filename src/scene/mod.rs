@@ -91,7 +91,8 @@ pub fn read(path: &Path) -> Result<Scene, SceneError> {
     let stop = build::stop(&solve, &file.solve)?;
     let at = top.key("animation");
     let frames = file.animation.as_ref();
-    let frames = frames.map(|table| actor::frames(&at, table)).transpose()?;
+    let frames = frames.map(|table| actor::frames(&at, table, material.weight));
+    let frames = frames.transpose()?;
     let bodies = solids.cast.bodies(-ENTRANCE).map_err(|error| {
         let at = top.key("body");
         let key = at.name();

@@ -60,6 +60,37 @@ fn a_kerchief_goes_along_and_a_run_that_was_ended_goes_on_to_the_same_bits() {
     }
 }
 
+/// The same with inertia: the first frame is at rest, and is set going with the head.
+#[test]
+fn a_kerchief_with_inertia_goes_along_and_a_run_that_was_ended_goes_on_to_the_same_bits() {
+    let trial = Trial::new();
+    let scene = format!("{SCENE}dynamics = true\nsteps_per_frame = 4\n");
+    trial.put("run.toml", scene.as_bytes());
+    let said = trial.run(&["animate", "run.toml", "--out", "one"]);
+    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    let report = json(&trial.path().join("one/report.json"));
+    assert_eq!(report["frames_certified"], 3);
+    let kinds = [0, 1, 2].map(|frame| report["frames"][frame]["equilibrium"].clone());
+    assert_eq!(kinds, ["static", "dynamic", "dynamic"]);
+    assert!(report["frames"][0]["fastest_cm_per_s"].is_null());
+    // Within the first 0.16 s of a walk of 1 m/s, the head takes the kerchief along.
+    for frame in [1, 2] {
+        let fastest = report["frames"][frame]["fastest_cm_per_s"].as_f64();
+        assert!((20.0..300.0).contains(&fastest.unwrap()), "{fastest:?}");
+        let energy = report["frames"][frame]["kinetic_energy_gf_cm"].as_f64();
+        assert!(energy.unwrap() > 0.0);
+    }
+
+    fs::create_dir(trial.path().join("two")).unwrap();
+    for name in ["dressed.state", "frame-0000.state", "frame-0001.state"] {
+        let [from, to] = ["one", "two"].map(|out| trial.path().join(out).join(name));
+        fs::copy(from, to).unwrap();
+    }
+    let said = trial.run(&["animate", "run.toml", "--out", "two", "--threads", "1"]);
+    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    assert!(state(&trial, "one", 2) == state(&trial, "two", 2));
+}
+
 #[test]
 fn what_cannot_be_animated_is_refused() {
     let trial = Trial::new();
@@ -67,11 +98,42 @@ fn what_cannot_be_animated_is_refused() {
     let (frameless, _) = SCENE.split_once("[animation]").unwrap();
     let unknown = SCENE.replace("\"walk\"", "\"wlak\"");
     let slow = SCENE.replace("12.5", "0");
+    let with = |keys: &str| format!("{SCENE}{keys}\n");
+    let airless = with("damping_per_s = 3.0");
+    let stepped = with("steps_per_frame = 4");
+    let stepless = with("dynamics = true\nsteps_per_frame = 0");
+    let half = with("dynamics = true\nsteps_per_frame = 1.5");
+    let driven = with("dynamics = true\ndamping_per_s = -1.0");
     let rows = [
         (still.as_str(), "", "nobody moves in this scene"),
         (frameless, "", "the scene has no [animation]"),
         (&unknown, "", "walk"),
         (&slow, "", "allowed: 0.1 to 10000 frames per second"),
+        (
+            &airless,
+            "",
+            "animation.damping_per_s is 3.0; allowed: only with dynamics = true",
+        ),
+        (
+            &stepped,
+            "",
+            "animation.steps_per_frame is 4; allowed: only with dynamics = true",
+        ),
+        (
+            &stepless,
+            "",
+            "animation.steps_per_frame is 0; allowed: 1 to 1000 steps",
+        ),
+        (
+            &half,
+            "",
+            "animation.steps_per_frame is 1.5; allowed: a whole number, 0 or more",
+        ),
+        (
+            &driven,
+            "",
+            "animation.damping_per_s is -1.0; allowed: 0 to 10000 per second",
+        ),
         (
             SCENE,
             "--frames=2..9",

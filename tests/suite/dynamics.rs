@@ -310,11 +310,11 @@ fn cloth_on_a_slab_goes_with_it_up_to_the_limit_of_friction_and_slips_beyond() {
     }
 }
 
-/// A cloth over a ball, pinned to its top.
+/// A cloth over a ball, pinned near its top: by two points, or it would be free to turn.
 fn pinned() -> Problem {
     let mut problem = scene(
         "[cloth]\nfabric = \"c\"\nsize_cm = [16, 16]\nspacing_cm = 1\ncentre_cm = [0, 0, 6.03]\n\
-         [contact]\nfriction = 0.0\n[[hold]]\npoint_cm = [0, 0]\n[[body]]\nball = { radius_cm = 6 }\n",
+         [contact]\nfriction = 0.0\n[[hold]]\npoint_cm = [0, 0]\n[[hold]]\npoint_cm = [2, 0]\n[[body]]\nball = { radius_cm = 6 }\n",
     )
     .problem;
     problem.seed = 3;

@@ -85,10 +85,11 @@ fn wanted(wish: &AnimateWish, frames: &Frames) -> Result<(usize, usize), Failure
 fn digest(scene: &Scene, frames: &Frames) -> u64 {
     let (problem, cast) = (&scene.problem, &scene.cast);
     let whole = format!(
-        "{} {problem:?} {cast:?} {} {}",
+        "{} {problem:?} {cast:?} {} {} {:?}",
         env!("CARGO_PKG_VERSION"),
         scene.settings.tolerance,
         frames.rate,
+        frames.pace,
     );
     output::digest(whole.as_bytes())
 }
@@ -155,10 +156,21 @@ impl Work<'_> {
             .map_err(|error| refusal(self.scene, error.into()))?;
         let footing =
             Footing::from_numbers(&last.footing, bodies, self.lattice).ok_or_else(lost)?;
-        let before = (last.positions.as_slice(), &footing);
+        let (positions, velocities) = (last.positions.as_slice(), last.velocities.as_slice());
+        let settings = &self.scene.settings;
         let name = format!("frame {} of {}", frame + 1, self.frames.count);
-        let settled = self.watched(&name, |watch| {
-            play::next(problem, cast, times, before, &self.scene.settings, watch)
+        let settled = self.watched(&name, |watch| match &self.frames.pace {
+            // The first is at rest, and is set going.
+            Some(pace) if frame == 0 => {
+                let drape =
+                    play::next(problem, cast, times, (positions, &footing), settings, watch)?;
+                play::set_going(problem, cast, times[1], (&self.frames, pace), drape)
+            }
+            Some(pace) => {
+                let before = (positions, &footing, velocities);
+                play::sway(problem, cast, (times, pace), before, settings, watch)
+            }
+            None => play::next(problem, cast, times, (positions, &footing), settings, watch),
         })?;
         self.keep(&self.path(frame), &settled)
     }

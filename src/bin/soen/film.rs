@@ -3,6 +3,7 @@
 use crate::{args::AnimateWish, failure::Failure};
 use soen::{
     body::Bodies,
+    certificate::Equilibrium,
     lattice::Lattice,
     math::Vec3,
     output::{self, BodyMesh, ClothMesh, Frame, Image, Shot, View},
@@ -15,6 +16,7 @@ use std::path::Path;
 /// Width and height of the pictures [pixels].
 const PICTURE: [u32; 2] = [480, 640];
 const NOT_AT_REST: &str = "NOT AT REST: stopped before it was certified";
+const NOT_BALANCED: &str = "NOT IN EQUILIBRIUM: stopped before it was certified";
 
 /// Number, time [s] and drape of a frame.
 type Take<'a> = (usize, f64, &'a Shot);
@@ -144,7 +146,10 @@ impl<'a> Film<'a> {
                     positions: &shot.positions,
                 };
                 let view = View {
-                    caption: (!shot.converged).then_some(NOT_AT_REST),
+                    caption: (!shot.converged).then_some(match shot.equilibrium {
+                        Equilibrium::Static => NOT_AT_REST,
+                        Equilibrium::Dynamic { .. } => NOT_BALANCED,
+                    }),
                     width: PICTURE[0],
                     height: PICTURE[1],
                     frame: frames.get(index).copied(),
@@ -182,7 +187,15 @@ impl<'a> Film<'a> {
             self.scene.title, self.wanted
         );
         for (number, time, shot) in &self.takes {
-            let mark = if shot.converged { "" } else { "  NOT AT REST" };
+            let (speed, not) = match shot.equilibrium {
+                Equilibrium::Static => (String::new(), "NOT AT REST"),
+                Equilibrium::Dynamic { fastest, .. } => {
+                    (format!("  {fastest:.1} cm/s"), "NOT IN EQUILIBRIUM")
+                }
+            };
+            let mark = if shot.converged { "" } else { not };
+            let mark = format!("{speed}  {mark}");
+            let mark = mark.trim_end();
             table += &format!(
                 "  {number:5}  {time:5.3} s  {:.1e}  {:.4} cm  {:.4} cm  {:.2} to {:.2} cm{mark}\n",
                 shot.residual_max,
