@@ -311,6 +311,30 @@ mod tests {
     }
 
     #[test]
+    fn bodies_half_way_have_gone_and_turned_by_half_and_halves_of_halves_by_a_quarter() {
+        let about = |angle: f64| crate::math::turn(&(Vec3::new(1.0, 2.0, -2.0) * (angle / 3.0)));
+        let box_at = |part: f64| {
+            let place = Vec3::new(4.0, -2.0, 8.0) * part;
+            let size = Vec3::new(1.0, 2.0, 3.0);
+            let pose = Pose::from_parts(place.into(), about(0.3 + 2.0 * part));
+            Bodies::new(vec![
+                Part::new("box".into(), &Shape::Cuboid { size }, pose).unwrap(),
+            ])
+        };
+        let (start, end) = (box_at(0.0), box_at(1.0));
+        let half = start.half_way(&end);
+        let quarter = start.half_way(&half);
+        for (found, expected) in [(half, box_at(0.5)), (quarter, box_at(0.25))] {
+            let corners = |bodies: &Bodies| bodies.parts()[0].triangles().0;
+            for (a, b) in corners(&found).iter().zip(corners(&expected)) {
+                assert!((a - b).norm() < 1e-12, "{a} {b}");
+            }
+            let boxes = found.places()[0].0 - expected.places()[0].0;
+            assert!(boxes.norm() < 1e-12);
+        }
+    }
+
+    #[test]
     fn a_point_pressed_on_a_sheet_again_and_again_stays_on_its_side() {
         let bodies = sheets();
         let mut at = Vec3::new(0.31, 0.17, 0.4);

@@ -324,6 +324,51 @@ mod tests {
         Ok(())
     }
 
+    /// Newton's second law by hand: 0.1 cm in 0.01 s is 10 cm/s, 4 more than before are 400 cm/s².
+    #[test]
+    fn inertia_is_a_load_against_the_gain_of_speed_and_air_one_against_speed() {
+        let lattice = cut(Outline::rectangle(2.0, 2.0).unwrap(), 0.0, 1.0);
+        let cloth = fabric("c").unwrap();
+        let nodes = lattice.coordinates.len();
+        let (from, to) = (vec![Vec3::zeros(); nodes], vec![Vec3::x() * 0.1; nodes]);
+        let velocities = vec![Vec3::x() * 6.0; nodes];
+        let none = Laws {
+            tension: false,
+            bending: false,
+            shear: false,
+        };
+        let loads = Loads {
+            lattice: &lattice,
+            fabric: &cloth,
+            laws: none,
+            clamps: &[],
+            own_only: false,
+            passage: Some(Passage {
+                from: &from,
+                velocities: &velocities,
+                step: 0.01,
+                damping: 3.0,
+            }),
+        };
+        for (load, area) in loads.at(&to).iter().zip(&lattice.area) {
+            let weight = area * cloth.weight;
+            let [inertia, air] = [400.0, 30.0].map(|pull| weight * pull / 980.665);
+            let net = Vec3::new(-inertia - air, 0.0, -weight);
+            assert!((load.net - net).norm() < 1e-13, "{load:?}");
+            assert!((load.sum - weight - inertia - air).abs() < 1e-13);
+        }
+        let Equilibrium::Dynamic {
+            fastest,
+            kinetic_energy,
+        } = loads.equilibrium(&to)
+        else {
+            panic!("it moves");
+        };
+        let mass = 4.0 * cloth.weight / 980.665;
+        assert!((fastest - 10.0).abs() < 1e-12);
+        assert!((kinetic_energy - 0.5 * mass * 100.0).abs() < 1e-12);
+    }
+
     #[test]
     fn magnitudes_are_summed_and_do_not_cancel() {
         let lattice = cut(Outline::rectangle(3.0, 1.0).unwrap(), 0.0, 1.0);

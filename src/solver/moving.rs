@@ -31,9 +31,12 @@ use std::cell::OnceCell;
 /// A step is divided into so many at most.
 const PARTS: usize = 16;
 /// Rounds of a step before it is halved.
-const ROUNDS: usize = 24;
-/// Sweeps before the first joint step: they settle what strikes a body.
-const SWEEPS: usize = 2;
+const ROUNDS: usize = 32;
+/// Sweeps before a joint step, where the last one moved a node by more than this part of a pitch: they
+/// settle what strikes a body, for a fraction of what a joint step costs. (A ball that goes through a
+/// curtain at 2 m/s took 600 joint steps without them, 114 with 4, 106 with 8.)
+const SWEEPS: usize = 4;
+const NEAR: f64 = 0.01;
 /// Sweeps in a round of the paper's forces, which have no joint step.
 const PLAIN_SWEEPS: usize = 20;
 /// A step is done when what it asks for is this part of the tolerance, of what gravity moves in it.
@@ -299,8 +302,8 @@ impl Journey<'_, '_> {
                 remaining = f64::INFINITY;
                 break;
             }
-            let Some(next) = self.round(round, made) else {
-                short = 0;
+            let Some(next) = self.round(made) else {
+                (made, short) = (0.0, 0);
                 continue;
             };
             made = next.made;
@@ -336,14 +339,14 @@ impl Journey<'_, '_> {
         }
     }
 
-    /// A joint step with what bodies are near; the first, and those after none, follow sweeps.
-    fn round(&mut self, round: usize, made: f64) -> Option<Step> {
+    /// A joint step with what bodies are near, after sweeps where the last went far or nowhere.
+    fn round(&mut self, made: f64) -> Option<Step> {
         let level = &mut self.level;
         if level.own_only {
             return Some(plain_round(level));
         }
         self.joint.look(level, made);
-        if round == 0 || made == 0.0 {
+        if made == 0.0 || made > NEAR * level.lattice.pitch {
             for _ in 0..SWEEPS {
                 level.sweep();
                 level.touches.look_at_loads(&level.at);
