@@ -294,8 +294,8 @@ pub(super) struct AnimationTable {
     pub(super) dynamics: bool,
     /// Steps of time from a frame to the next, with dynamics; 8 where absent.
     pub(super) steps_per_frame: Option<u32>,
-    /// Rate at which motion through still air dies down, with dynamics; that of air on this cloth,
-    /// broadside on at 1 m/s, where absent.
+    /// Rate at which motion through still air dies down, with dynamics; that of air on this cloth
+    /// at 1 m/s where absent.
     pub(super) damping_per_s: Option<f64>,
 }
 

@@ -326,12 +326,14 @@ pub struct Dynamics {
 }
 
 impl Dynamics {
-    /// The rate [1/s] at which air slows a cloth of this weight [gf/cm²] that goes broadside on at
-    /// 1 m/s: the drag ½·ρ·C·v² over mass times v, with ρ = 1.2e-3 g/cm³ and C = 1.2 (Hoerner, *Fluid-
-    /// Dynamic Drag*, 1965: a square plate has 1.16). What goes edge on is slowed less.
+    /// The rate [1/s] at which air slows a cloth of this weight [gf/cm²] at 1 m/s, on average over all
+    /// the ways that it may face: a third of the drag ½·ρ·C·v² of a plate broadside on over mass times
+    /// v, since air resists the part of a motion that goes across the cloth, and the mean of cos² over
+    /// all directions is 1/3. ρ = 1.2e-3 g/cm³, C = 1.16 (a square plate; Hoerner, *Fluid-Dynamic
+    /// Drag*, 1965).
     #[must_use]
     pub fn damping_in_air(weight: f64) -> f64 {
-        (0.5 * 1.2e-3 * 1.2 * 100.0 / weight).min(moving::MOST_DAMPING)
+        (0.5 * 1.2e-3 * 1.16 * 100.0 / (3.0 * weight)).min(moving::MOST_DAMPING)
     }
 }
 

@@ -9,7 +9,7 @@ use soen::{
     lattice::{Edge, Outline, Piece},
     math::{Pose, Vec3},
     solver::{
-        Dynamics, ForceModel, Grip, Hold, Placement, Problem, Settings, Settled, Unsolvable,
+        Dynamics, ForceModel, Grip, Hold, Placement, Problem, Settings, Settled, Unsolvable, go_on,
         settle, step,
     },
 };
