@@ -384,6 +384,46 @@ fn what_a_gust_leaves_behind_is_at_rest_by_statics() {
     assert!(farthest(&last, &still) < 0.1);
 }
 
+/// A curtain that hangs across y, and a ball that goes through where it hung.
+#[test]
+fn a_ball_that_strikes_a_curtain_takes_it_along_and_does_not_pass_through() {
+    const HEIGHT: f64 = -8.0;
+    let ball = |y: f64| {
+        let pose = Pose::translation(0.0, y, HEIGHT);
+        let part = Part::new("ball".into(), &Shape::Ball { radius: 4.0 }, pose);
+        Bodies::new(vec![part.unwrap()])
+    };
+    let text = "[cloth]\nfabric = \"a\"\nsize_cm = [16, 16]\nspacing_cm = 1\ny_axis = [0, 0, 1]\n\
+        centre_cm = [0, 0, -8]\n[contact]\nfriction = 0.3\n[[hold]]\nedge = \"y-max\"\n";
+    let mut problem = scene(text).problem;
+    problem.bodies = ball(-4.5);
+    let rest = settle(&problem, &SETTINGS, &mut |_| true).unwrap();
+    // 200 cm/s by the lattice's forces, 60 by the paper's, which have sweeps alone.
+    for (forces, speed) in [(ForceModel::Lattice, 200.0), (ForceModel::Paper, 60.0)] {
+        let dynamics = Dynamics {
+            step: 0.005,
+            damping: 4.0,
+        };
+        problem.forces = forces;
+        let mut cloth = Moving::of(problem.clone(), dynamics, &rest);
+        for n in 1..=8 {
+            let centre = -4.5 + speed * dynamics.step * f64::from(n);
+            cloth.problem.bodies = ball(centre);
+            let now = cloth.wait(1);
+            assert!(now.converged, "{forces:?} {n}: {:?}", now.certificate);
+            for at in &now.positions {
+                let [x, z] = [at.x, at.z - HEIGHT];
+                let depth = 4.0 - (at - Vec3::new(0.0, centre, HEIGHT)).norm();
+                assert!(depth < 0.05, "{forces:?} {n}: {at:?}");
+                if x.hypot(z) < 2.0 {
+                    assert!(at.y > centre, "{forces:?} {n}: {at:?}");
+                }
+            }
+        }
+        assert!(cloth.velocities.iter().any(|v| v.y > 0.9 * speed));
+    }
+}
+
 #[test]
 fn a_cloth_in_motion_has_the_same_bits_on_any_number_of_threads_and_gone_on_from_between() {
     let mut problem = pinned();
