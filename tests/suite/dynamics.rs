@@ -198,8 +198,7 @@ fn a_thrown_cloth_keeps_its_horizontal_velocity_and_gains_no_energy() {
         energies.push(kinetic_energy + now.shape.energy);
     }
     let off = (momentum(&cloth.velocities) - first).xy().norm();
-    println!("horizontal velocity off by {off} cm/s; energies {energies:?}");
-    assert!(off < 1e-4, "{off} cm/s");
+    assert!(off < 1e-9, "{off} cm/s");
     assert!(energies.windows(2).all(|pair| pair[1] < pair[0] + 1e-9));
 }
 
@@ -256,9 +255,10 @@ fn a_hanging_strip_swings_as_bernoullis_chain() {
     let (coarse, fine) = (period(0.01), period(0.005));
     let expected = 2.0 * std::f64::consts::PI / (0.5 * ROOT * (G / long).sqrt());
     let limit = 2.0 * fine - coarse;
-    println!("period {coarse}, {fine}, in the limit {limit}; chain {expected} s of {long} cm");
-    assert!((fine / expected - 1.0).abs() < 0.03);
-    assert!((limit / expected - 1.0).abs() < 0.02);
+    // Seen: 0.7486 s and 0.7473 s, in the limit 0.7460 s; the chain's is 0.7464 s.
+    let seen = format!("{coarse} s, {fine} s, in the limit {limit} s; chain {expected} s");
+    assert!((fine / expected - 1.0).abs() < 0.01, "{seen}");
+    assert!((limit / expected - 1.0).abs() < 0.005, "{seen}");
 }
 
 /// A slab whose top is level, moved along x.
@@ -296,13 +296,11 @@ fn cloth_on_a_slab_goes_with_it_up_to_the_limit_of_friction_and_slips_beyond() {
         place(steps) - gone.x
     };
     let slow = behind(0.8 * limit);
-    println!("0.8 of the limit: behind by {slow} cm");
     // What friction gives before it holds, and a step's delay.
     assert!(slow.abs() < 0.02, "{slow} cm behind");
     for times in [1.5, 3.0] {
         let slipped = behind(times * limit);
         let expected = 0.5 * (times - 1.0) * limit * time * time;
-        println!("{times} of the limit: behind by {slipped} cm, Coulomb {expected} cm");
         assert!(
             (slipped / expected - 1.0).abs() < 0.03,
             "{slipped} cm, {expected} cm"
@@ -353,10 +351,6 @@ fn motion_that_dies_down_ends_at_the_drape_at_rest() {
     let rest = settle(&problem, &SETTINGS, &mut |_| true).unwrap();
     assert!(rest.converged, "{:?}", rest.certificate);
     let (far, last) = blown(&problem, &rest, Vec3::new(6.0, 2.0, 1.0));
-    println!(
-        "a breath: {far} cm away, in the end {} cm",
-        farthest(&last, &rest)
-    );
     assert!(far > 0.15, "{far} cm");
     assert!(farthest(&last, &rest) < 0.01);
 }
@@ -374,11 +368,6 @@ fn what_a_gust_leaves_behind_is_at_rest_by_statics() {
     let residual = judged.certificate.residual_max;
     assert!(residual <= SETTINGS.tolerance, "{residual}");
     let still = go_on(&problem, &[], state, &SETTINGS, &mut |_| true).unwrap();
-    println!(
-        "a gust: {far} cm away, in the end {} cm; rest is {} cm from there, residual {residual}",
-        farthest(&last, &rest),
-        farthest(&last, &still)
-    );
     assert!(far > 1.0, "{far} cm");
     assert!(still.converged, "{:?}", still.certificate);
     assert!(farthest(&last, &still) < 0.1);
