@@ -343,7 +343,8 @@ impl Dynamics {
 /// There is a step for each of the bodies that it goes `through`, and one for the problem's: each as it
 /// is at the step's end, part by part the same as the footing's. Holds go steadily from where they are to
 /// where the problem has them. A step that does not come to its equilibrium is halved, the bodies half
-/// way in between. The certificate is that of the last step: forces balance with inertia (d'Alembert).
+/// way in between; none should take a body farther than half of what it is thick. The certificate is
+/// that of the last step: forces balance with inertia (d'Alembert). Its way to go is the worst of all.
 ///
 /// # Errors
 /// [`Unsolvable`], as [`go_on`]; [`Unsolvable::Pace`] for a step, a damping or a velocity out of range.

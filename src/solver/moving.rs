@@ -296,6 +296,7 @@ impl Journey<'_, '_> {
         let mut made = self.level.lattice.pitch;
         let mut asked = f64::INFINITY;
         let mut remaining = f64::INFINITY;
+        // Joint steps in a row that asked for too little to matter.
         let mut short = 0;
         for round in 0..ROUNDS {
             if !self.run.goes_on(&self.level, 0, &standing) {
@@ -371,10 +372,10 @@ impl Journey<'_, '_> {
             damping: self.dynamics.damping,
         });
         let case = Case {
-            bodies: self.level.bodies,
             passage,
             ..self.case
         };
+        // One that was stopped is on its way to these bodies, and is judged by them.
         let settled = finish(&case, self.level, work, self.run.settings, remaining);
         (settled, self.run.film)
     }
