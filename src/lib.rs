@@ -59,8 +59,8 @@
 //! - `certificate` shares no sum, list or derivative with `solver`.
 //!
 //! And what is always absent:
-//! - time, but in `motion` and `play`, which pose bodies by it, and in [`solver::step`], the one place
-//!   with velocities. Masses are weights over standard gravity (`src/forces/momentum.rs`);
+//! - time, but in `motion` and `play`, which pose bodies by it, and where cloth has inertia:
+//!   [`solver::step`] and its certificate. Masses are weights over standard gravity (`src/forces/momentum.rs`);
 //! - a body inside `fabric` or `forces`, a material inside `lattice`, a scene inside `solver`;
 //! - files outside `scene` and `output`, and clocks, arguments and printing outside the command
 //!   line: the rest compiles to wasm32;

@@ -1,5 +1,6 @@
-//! The proof that a shape is at rest (design §6), recomputed from the final positions alone: it
-//! shares no sum, list or derivative with the solver.
+//! The proof that a shape is at rest (design §6), recomputed from the final positions alone, or, of a
+//! cloth in motion, from those and the positions and velocities before the last step: it shares no
+//! sum, list or derivative with the solver.
 
 mod loads;
 mod reaction;
@@ -47,7 +48,9 @@ pub struct Certificate {
 pub enum Equilibrium {
     /// Forces balance: the cloth stays where it is.
     Static,
-    /// Forces balance with inertia and the air's resistance (d'Alembert): the cloth moves on.
+    /// Forces balance with inertia and the air's resistance (d'Alembert): the cloth moves on. Friction
+    /// is judged as at rest, to be inside its cone: that of a node that slips should lie on it and
+    /// against the slip, which is not looked at.
     Dynamic {
         /// Greatest speed of a node [cm/s].
         fastest: f64,

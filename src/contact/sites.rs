@@ -34,14 +34,14 @@ pub(crate) fn corner_of([u, v]: [f64; 2]) -> usize {
 }
 
 /// Samples of a cell stand no farther apart than this [cm], where 2 to 4 a side allow it.
-const SAMPLE_DISTANCE: f64 = 0.2;
+const USUAL_DISTANCE: f64 = 0.2;
 
 impl Sites {
     /// The sites of a lattice. Where samples come to stand farther apart than `distance` [cm] they
     /// take in the edges of the cells, which are the nearest that cloth folded there has to a body.
     #[must_use]
     pub fn new(lattice: &Lattice, distance: f64) -> Self {
-        let side = (lattice.pitch / SAMPLE_DISTANCE).ceil().clamp(2.0, 4.0);
+        let side = (lattice.pitch / USUAL_DISTANCE).ceil().clamp(2.0, 4.0);
         let with_edges = lattice.pitch > distance * side;
         let side = side as usize + usize::from(with_edges);
         Self {

@@ -118,9 +118,7 @@ impl BiasBend {
         let drop = -rest.middle(Edge::XMax).z;
         Ok((bending_of_drop(fabric.weight, length, drop), rest))
     }
-}
 
-impl BiasBend {
     /// Pitch and width [cm] of a strip. Along the bias the lattice's nodes fall into lines across it,
     /// half a cell's diagonal apart: the strip ends on such lines, at its clamp as at its sides, so
     /// that no cell is cut there.

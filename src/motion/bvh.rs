@@ -52,6 +52,7 @@ const MOST_JOINTS: usize = 10_000;
 const MOST_FRAMES: u64 = 100_000;
 /// The longest time from frame to frame [s].
 const LONGEST_STEP: f64 = 60.0;
+const SHORTEST_STEP: f64 = 1e-4;
 
 /// The lines that hold something, with their numbers from 1.
 type Lines<'t> = Box<dyn Iterator<Item = (usize, &'t str)> + 't>;
@@ -116,10 +117,11 @@ fn frame_count(lines: &mut Lines<'_>) -> Result<usize, BvhError> {
 fn frame_time(lines: &mut Lines<'_>) -> Result<f64, BvhError> {
     let (line, rest) = headed(lines, "Frame Time:")?;
     match rest.parse() {
-        Ok(time) if time > 0.0 && time <= LONGEST_STEP => Ok(time),
+        Ok(time) if (SHORTEST_STEP..=LONGEST_STEP).contains(&time) => Ok(time),
         _ => Err(BvhError::FrameTime {
             line,
             found: rest.into(),
+            shortest: SHORTEST_STEP,
             longest: LONGEST_STEP,
         }),
     }

@@ -114,7 +114,10 @@ impl Path {
     fn speed(&self, frame: usize, step: f64) -> f64 {
         let reach = ((0.5 * LOOK / step).round() as usize).max(1);
         let last = self.balls.len().saturating_sub(1);
-        let (from, to) = (frame.saturating_sub(reach), (frame + reach).min(last));
+        let (from, to) = (
+            frame.saturating_sub(reach),
+            frame.saturating_add(reach).min(last),
+        );
         let at = |frame: usize| self.balls.get(frame).copied().unwrap_or_default();
         (at(to) - at(from)).norm() / ((to - from).max(1) as f64 * step)
     }
@@ -327,7 +330,7 @@ fn covered(list: &[f64], half: f64) -> Vec<f64> {
 }
 
 fn near(list: &[f64], frame: usize, half: f64) -> impl Iterator<Item = (usize, f64)> {
-    let reach = half.floor() as usize;
+    let reach = (half.floor() as usize).min(list.len());
     let from = frame.saturating_sub(reach);
     let values = list.iter().copied().enumerate();
     values.skip(from).take(frame + reach + 1 - from)

@@ -149,6 +149,13 @@ impl Cast {
     /// # Errors
     /// [`PartError`], as [`bodies`](Self::bodies).
     pub fn between(&self, from: f64, to: f64, cloth: &[Vec3]) -> Result<Vec<Bodies>, PartError> {
+        let steps = self.stations(from, to, cloth, Against::Middle);
+        let time = |k: usize| from + (to - from) * (k as f64 / steps as f64);
+        (1..steps).map(|k| self.bodies(time(k))).collect()
+    }
+
+    /// How many steps from one time to another [s] are short enough for a cloth at these places [cm].
+    pub(super) fn stations(&self, from: f64, to: f64, cloth: &[Vec3], against: Against) -> usize {
         let low = cloth
             .iter()
             .fold(Vec3::repeat(f64::INFINITY), |low, at| low.inf(at));
@@ -161,22 +168,37 @@ impl Cast {
         };
         let ways = self
             .actors()
-            .map(|actor| longest_way(actor, from, to, is_near));
-        let steps = (ways.fold(0.0, f64::max) / STATION).ceil().max(1.0);
-        let time = |k: usize| from + (to - from) * (k as f64 / steps);
-        (1..steps as usize).map(|k| self.bodies(time(k))).collect()
+            .map(|actor| longest_way(actor, [from, to], against, is_near));
+        (ways.fold(0.0, f64::max) / STATION).ceil().max(1.0) as usize
     }
 }
 
-/// How far the farthest muscle that counts goes between two times against the middle of all [cm].
-fn longest_way(actor: &Actor, from: f64, to: f64, counts: impl Fn(&Ball) -> bool) -> f64 {
+/// What a muscle's way is measured against.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Against {
+    /// The middle of all muscles, which takes along a cloth that is at rest on them.
+    Middle,
+    /// The ground, for a cloth that nothing takes along but what touches it.
+    Ground,
+}
+
+/// How far the farthest muscle that counts goes between two times [cm].
+fn longest_way(
+    actor: &Actor,
+    [from, to]: [f64; 2],
+    against: Against,
+    counts: impl Fn(&Ball) -> bool,
+) -> f64 {
     let look = |k: usize| actor.balls(from + (to - from) * (k as f64 / LOOKS as f64));
     let mut before = look(0);
     let counts: Vec<bool> = before.iter().map(counts).collect();
     let mut ways = vec![0.0; before.len()];
     for k in 1..=LOOKS {
         let now = look(k);
-        let common = middle(&now) - middle(&before);
+        let common = match against {
+            Against::Middle => middle(&now) - middle(&before),
+            Against::Ground => Vec3::zeros(),
+        };
         for (way, (now, before)) in ways.iter_mut().zip(now.iter().zip(&before)) {
             *way += (now.centre - before.centre - common).norm();
         }

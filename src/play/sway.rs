@@ -1,6 +1,6 @@
 //! One frame after the other of a cloth with inertia.
 
-use super::{Cast, Frames, Unplayable};
+use super::{Cast, Frames, Unplayable, cast::Against};
 use crate::{
     contact::Footing,
     math::Vec3,
@@ -54,8 +54,8 @@ pub fn sway(
         bodies: cast.bodies(to)?,
         ..problem.clone()
     };
-    // No step takes a body farther than a station would.
-    let stations = cast.between(from, to, before.0)?.len() + 1;
+    // Nothing takes the cloth along but what touches it: no body may go far in a step.
+    let stations = cast.stations(from, to, before.0, Against::Ground);
     let steps = pace.steps.max(1);
     let steps = steps * stations.div_ceil(steps);
     let length = (to - from) / steps as f64;

@@ -23,6 +23,8 @@ const STEPS: Allowed = Allowed::new(1.0, 1000.0, "steps");
 /// At 24 frames a second a step is 1/192 s: it slows the swing of half a metre of cloth (ω = 5.3 rad/s)
 /// by 0.07/s, far less than air does, and a hand that goes 1 m/s takes it half a centimetre.
 const USUAL_STEPS: f64 = 8.0;
+/// Most steps in a second.
+const MOST_STEPS: f64 = 1e5;
 const DAMPING: Allowed = Allowed::new(0.0, 1e4, "per second");
 
 /// The robot of a scene's body, in its place.
@@ -68,15 +70,20 @@ pub(super) fn frames(
 ) -> Result<Frames, SceneError> {
     let count = at.key("frames").number(f64::from(table.frames), &COUNT)?;
     let rate = table.frames_per_s.unwrap_or(USUAL_RATE);
+    let rate = at.key("frames_per_s").number(rate, &RATE)?;
     Ok(Frames {
         count: count as usize,
-        rate: at.key("frames_per_s").number(rate, &RATE)?,
-        pace: pace(at, table, weight)?,
+        rate,
+        pace: pace(at, table, (weight, rate))?,
     })
 }
 
 /// How the cloth goes from one to the next, if it has inertia.
-fn pace(at: &At<'_>, table: &AnimationTable, weight: f64) -> Result<Option<Pace>, SceneError> {
+fn pace(
+    at: &At<'_>,
+    table: &AnimationTable,
+    (weight, rate): (f64, f64),
+) -> Result<Option<Pace>, SceneError> {
     let given = [
         ("steps_per_frame", table.steps_per_frame.is_some()),
         ("damping_per_s", table.damping_per_s.is_some()),
@@ -90,8 +97,14 @@ fn pace(at: &At<'_>, table: &AnimationTable, weight: f64) -> Result<Option<Pace>
     let steps = table.steps_per_frame.map_or(USUAL_STEPS, f64::from);
     let damping = table.damping_per_s;
     let damping = damping.unwrap_or_else(|| Dynamics::damping_in_air(weight));
+    let steps = at.key("steps_per_frame").number(steps, &STEPS)?;
+    if steps * rate > MOST_STEPS {
+        let most = (MOST_STEPS / rate).floor();
+        let allowed = format!("1 to {most} at {rate} frames per second");
+        return Err(at.key("steps_per_frame").not_allowed(allowed));
+    }
     Ok(Some(Pace {
-        steps: at.key("steps_per_frame").number(steps, &STEPS)? as usize,
+        steps: steps as usize,
         damping: at.key("damping_per_s").number(damping, &DAMPING)?,
     }))
 }

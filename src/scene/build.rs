@@ -228,6 +228,7 @@ pub(super) fn place_of<'d>(top: &At<'d>, refusal: &Unsolvable) -> At<'d> {
             hold.key("point_cm")
         }
         Unsolvable::StartsInside { .. } => cloth.key("centre_cm"),
+        Unsolvable::Pace { .. } => top.key("animation"),
         _ => cloth,
     }
 }

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     certificate::{Case, certify, drape_shape},
-    contact::{Surface, Touches},
+    contact::{Footing, Surface, Touches},
     lattice::Lattice,
     math::Vec3,
 };
@@ -194,7 +194,7 @@ pub(super) fn finish(
         holding: holding.collect(),
         lattice: level.lattice.clone(),
         contact: level.touches.loads(&level.at),
-        footing: level.touches.footing(&level.at, case.bodies),
+        footing: footing(case, &level),
         velocities: velocities(case, &level.at),
         converged: certificate.holds(settings.tolerance),
         shape: drape_shape(case, &level.at),
@@ -214,5 +214,16 @@ fn velocities(case: &Case<'_>, at: &[Vec3]) -> Vec<Vec3> {
             ways.map(|(to, from)| (to - from) / passage.step).collect()
         }
         None => vec![Vec3::zeros(); at.len()],
+    }
+}
+
+/// Where the cloth holds on to the problem's bodies; one that was stopped on its way there holds on to
+/// them as they were then.
+fn footing(case: &Case<'_>, level: &Level<'_>) -> Footing {
+    let there = level.touches.footing(&level.at, level.bodies);
+    if core::ptr::eq(case.bodies, level.bodies) {
+        there
+    } else {
+        there.carried(case.bodies)
     }
 }

@@ -232,7 +232,12 @@ impl Journey<'_, '_> {
         self.set_out(&from, last, step);
         let arrival = self.arrive(&from, step, ends);
         if self.run.stopped || arrival.is_there || last - first == 1 {
-            self.remaining = self.remaining.max(arrival.remaining);
+            let left = if arrival.is_there {
+                arrival.remaining
+            } else {
+                f64::INFINITY
+            };
+            self.remaining = self.remaining.max(left);
             let ways = self.level.at.iter().zip(&from.at);
             let moment = Moment {
                 velocities: ways.map(|(to, from)| (to - from) / step).collect(),
@@ -304,7 +309,7 @@ impl Journey<'_, '_> {
                 break;
             }
             let Some(next) = self.round(made) else {
-                (made, short) = (0.0, 0);
+                (made, short, remaining) = (0.0, 0, f64::INFINITY);
                 continue;
             };
             made = next.made;

@@ -103,6 +103,7 @@ fn what_cannot_be_animated_is_refused() {
     let stepped = with("steps_per_frame = 4");
     let stepless = with("dynamics = true\nsteps_per_frame = 0");
     let half = with("dynamics = true\nsteps_per_frame = 1.5");
+    let hasty = with("dynamics = true\nsteps_per_frame = 1000").replace("12.5", "1000");
     let driven = with("dynamics = true\ndamping_per_s = -1.0");
     let rows = [
         (still.as_str(), "", "nobody moves in this scene"),
@@ -123,6 +124,11 @@ fn what_cannot_be_animated_is_refused() {
             &stepless,
             "",
             "animation.steps_per_frame is 0; allowed: 1 to 1000 steps",
+        ),
+        (
+            &hasty,
+            "",
+            "animation.steps_per_frame is 1000; allowed: 1 to 100 at 1000 frames per second",
         ),
         (
             &half,
@@ -172,7 +178,12 @@ fn scenes_in_motion_are_read_and_a_capture_that_is_not_there_is_named() {
     names.sort();
     assert_eq!(
         names,
-        ["poncho-captured-walk", "poncho-jump", "poncho-walk"]
+        [
+            "poncho-captured-walk",
+            "poncho-jump",
+            "poncho-walk",
+            "veil-walk"
+        ]
     );
 
     let trial = Trial::new();

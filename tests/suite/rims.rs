@@ -8,7 +8,7 @@ use soen::lab::Drapemeter;
 fn a_wide_lattice_comes_to_rest_over_a_sharp_rim_however_it_is_laid() {
     let cloth = fabric("d");
     let meter = Drapemeter {
-        pitch: 2.0,
+        pitch: 1.5,
         seeds: 8,
         ..Drapemeter::default()
     };

@@ -103,12 +103,14 @@ pub enum BvhError {
         allowed: String,
     },
     /// A time from frame to frame that is not allowed.
-    #[error("line {line}: frame time is {found:?}; allowed: above 0 to {longest} s")]
+    #[error("line {line}: frame time is {found:?}; allowed: {shortest} to {longest} s")]
     FrameTime {
         /// The line.
         line: usize,
         /// As written.
         found: String,
+        /// The shortest that is allowed [s].
+        shortest: f64,
         /// The longest that is allowed [s].
         longest: f64,
     },

@@ -173,7 +173,7 @@ fn every_slip_is_told_with_its_line() {
         (
             "0.01",
             "0",
-            "line 18: frame time is \"0\"; allowed: above 0 to 60 s",
+            "line 18: frame time is \"0\"; allowed: 0.0001 to 60 s",
         ),
         ("0.01", "-0.01", "line 18: frame time is \"-0.01\"; allowed"),
         ("0.01", "nan", "line 18: frame time is \"nan\"; allowed"),

@@ -200,7 +200,7 @@ const SLIPS: &[(&str, &[&str])] = &[
     ),
     (
         "buckling --fabric c --twist 0.008 --pitch 5",
-        &["pitch [cm] is 5; allowed: 0.0065 to 0.1300"],
+        &["pitch [cm] is 5; allowed: 0.0099 to 0.1979"],
     ),
     (
         "buckling --fabric c --pitch 0.1",

@@ -294,7 +294,7 @@ const SLIPS: &[Slip] = &[
         "walk.bvh",
         "Frame Time: 0.1",
         "Frame Time: 0",
-        "walk.bvh: line 17: frame time is \"0\"; allowed: above 0 to 60 s",
+        "walk.bvh: line 17: frame time is \"0\"; allowed: 0.0001 to 60 s",
     ),
     (
         "walk.bvh",
