@@ -5,8 +5,8 @@
 //! weft; ten cloths measured by Wang et al. (2011) show 0.78 of it on average. A narrow strip may
 //! twist besides, and has less.
 //!
-//! Of cloth C with its twist, B45 over the mean of what its warp and weft strips show is 0.71, 0.73,
-//! 0.73, 0.75 with 4, 8, 16, 32 cells; without it 0.61, 0.57, 0.51, 0.50.
+//! Of cloth C with twist, B45 over the mean of what its warp and weft strips show is 0.71, 0.73, 0.75
+//! with 4, 8, 16 cells; without it 0.61, 0.53, 0.50.
 
 use super::{
     Cut, LabError, Reading, Rest, Watch,
