@@ -31,12 +31,14 @@ pub(crate) fn deepest_place(
     if all.all(|near| near.normal.dot(&nearest.normal) >= ONE_FACE) {
         return None;
     }
-    let mut look = |place| {
-        let nears = nears(place, reach);
-        nears.iter().map(|near| near.distance).fold(reach, f64::min)
-    };
+    let mut look = |place| nearest_of(&nears(place, reach), reach);
     let (distance, place) = descend(&mut look, (nearest.distance, start));
     (distance < reach).then_some(place)
+}
+
+/// How near the nearest of surfaces is [cm]; `reach` where there is none.
+pub(super) fn nearest_of(nears: &[Near], reach: f64) -> f64 {
+    nears.iter().map(|near| near.distance).fold(reach, f64::min)
 }
 
 /// The sample that is nearest to a surface, and that surface.
@@ -63,7 +65,7 @@ pub(crate) fn faces_around(
         if let Some((start, nearest)) = nearest_sample(&samples) {
             let mut look = |place| {
                 let nears = nears(place, reach);
-                let nearest = nears.iter().map(|near| near.distance).fold(reach, f64::min);
+                let nearest = nearest_of(&nears, reach);
                 found.extend(nears);
                 nearest
             };
@@ -74,7 +76,8 @@ pub(crate) fn faces_around(
 }
 
 /// A compass search for the place nearest to a surface: at steps that halve, to the best of six
-/// neighbours, for cloth that is creased along a cell's diagonal has the nearest place on it. Returns its distance [cm] as well.
+/// neighbours, for cloth that is creased along a cell's diagonal has the nearest place on it. Returns
+/// its distance [cm] as well.
 fn descend(distance: &mut impl FnMut([f64; 2]) -> f64, start: (f64, [f64; 2])) -> (f64, [f64; 2]) {
     let mut best = start;
     let mut step = 0.125;

@@ -3,7 +3,7 @@
 
 use super::{
     Touches,
-    deepest::{Sample, deepest_place},
+    deepest::{Sample, deepest_place, nearest_of},
 };
 use crate::body::Near;
 
@@ -49,8 +49,7 @@ impl Touches {
 /// Which of a cell's places is farthest out of all surfaces.
 fn farthest(places: &Places, nears: &impl Fn([f64; 2], f64) -> Vec<Near>, reach: f64) -> usize {
     let distance = |place: &Option<[f64; 2]>| {
-        let nears = place.map_or(Vec::new(), |place| nears(place, reach));
-        nears.iter().map(|near| near.distance).fold(reach, f64::min)
+        place.map_or(reach, |place| nearest_of(&nears(place, reach), reach))
     };
     let distances = places.each_ref().map(distance);
     (1..PLACES).fold(0, |best, k| {

@@ -2,7 +2,7 @@
 
 use super::{
     Friction, Site, Sites, Skin,
-    deepest::{FEATURE_REACH, Sample},
+    deepest::{FEATURE_REACH, Sample, nearest_of},
     places::{PLACES, Places},
     sites::corner_of,
     touch::{Settled, Touch},
@@ -158,7 +158,7 @@ impl Touches {
         }
         let wide = 2.0 * reach + self.pitch;
         let mut nears = bodies.near(at, wide);
-        let nearest = nears.iter().map(|near| near.distance).fold(wide, f64::min);
+        let nearest = nearest_of(&nears, wide);
         nears.retain(|near| near.distance <= reach);
         (Some(nearest), nears)
     }
