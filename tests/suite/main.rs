@@ -66,5 +66,6 @@ mod woman;
 
 mod animate;
 mod animation;
+mod arms;
 mod rims;
 mod robot;
