@@ -33,12 +33,12 @@ const RISE: f64 = 0.15;
 const FINE: f64 = 0.01;
 /// … so many parts at most.
 const MOST_PARTS: usize = 8;
-/// A foot is tipped no further [rad]: 60°.
-const MOST_TIPPED: f64 = 60.0 * core::f64::consts::PI / 180.0;
+/// A foot is tipped no further [°].
+const MOST_TIPPED: u32 = 60;
 /// What is ahead of this share of the foot's bone are toes.
 const TOES: f64 = 2.0 / 3.0;
-/// Halvings and thirdings of an angle: to 1e-7 of it.
-const ROUNDS: usize = 40;
+/// Halvings of a degree: to 1e-9 of it.
+const ROUNDS: usize = 30;
 
 /// One of our feet.
 struct Foot {
@@ -186,7 +186,7 @@ pub(super) fn tread_on(
     }
     let short = poses.iter().map(|poses| {
         let both = feet.iter().zip(poses);
-        both.map(|(foot, pose)| -foot.highest(pose).1)
+        both.map(|(foot, pose)| -foot.tipped(pose).1)
             .fold(0.0, f64::max)
     });
     let rise = covered(&short.collect::<Vec<_>>(), RISE / step);
@@ -196,7 +196,7 @@ pub(super) fn tread_on(
         for (foot, pose) in feet.iter().zip(poses) {
             pose.translation.vector.z += at(&rise);
             if let Some(joint) = key.posture.joints.get_mut(foot.bone) {
-                *joint *= turn(&(foot.axis * foot.tipped(pose)));
+                *joint *= turn(&(foot.axis * foot.tipped(pose).0));
             }
         }
     }
@@ -241,31 +241,33 @@ impl Foot {
         lowest(&self.soles, &tipped)
     }
 
-    /// The angle [rad] by which its lowest point is highest, and how high that is then [cm].
-    fn highest(&self, pose: &Pose) -> (f64, f64) {
-        let (mut low, mut high) = (-MOST_TIPPED, MOST_TIPPED);
-        for _ in 0..ROUNDS {
-            let third = (high - low) / 3.0;
-            if self.height(pose, low + third) < self.height(pose, high - third) {
-                low += third;
-            } else {
-                high -= third;
+    /// The least angle [rad] that takes it out of the floor, or the one that takes it farthest, and how
+    /// high its lowest point is then [cm]. Tipped far either way, a foot rises again on its heel's or
+    /// its toes' round: so what is nearest is sought from level on.
+    fn tipped(&self, pose: &Pose) -> (f64, f64) {
+        let mut best = (0.0, self.height(pose, 0.0));
+        for degrees in 1..=MOST_TIPPED {
+            if best.1 >= 0.0 {
+                break;
+            }
+            for side in [1.0, -1.0] {
+                let angle = side * f64::from(degrees).to_radians();
+                let height = self.height(pose, angle);
+                if height >= 0.0 {
+                    let below = side * f64::from(degrees - 1).to_radians();
+                    let out = self.just_out(pose, [below, angle]);
+                    return (out, self.height(pose, out));
+                }
+                if height > best.1 {
+                    best = (angle, height);
+                }
             }
         }
-        let angle = 0.5 * (low + high);
-        (angle, self.height(pose, angle))
+        best
     }
 
-    /// The least angle [rad] that takes it out of the floor.
-    fn tipped(&self, pose: &Pose) -> f64 {
-        if self.height(pose, 0.0) >= 0.0 {
-            return 0.0;
-        }
-        let (mut out, height) = self.highest(pose);
-        if height <= 0.0 {
-            return out;
-        }
-        let mut below = 0.0;
+    /// Where between an angle at which it is below the floor and one at which it is not it comes out.
+    fn just_out(&self, pose: &Pose, [mut below, mut out]: [f64; 2]) -> f64 {
         for _ in 0..ROUNDS {
             let middle = 0.5 * (below + out);
             if self.height(pose, middle) < 0.0 {
