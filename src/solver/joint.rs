@@ -3,23 +3,24 @@
 //!
 //! 1. The derivative of all forces by all positions is assembled: the exact one, and one without
 //!    its negative directions, which leads.
-//! 2. The exact one is solved by conjugate gradients. Where it has a negative direction the shape is
-//!    not stable, and there is no step; nor where the step would be long: unless other steps go even
-//!    less far, then the energy's fall is followed as far as is trusted.
+//! 2. The exact one is solved by its factors. Where it has none the shape is not stable: conjugate
+//!    gradients seek the way down, and there is no step; nor where the step would be long: unless
+//!    other steps go even less far, then the energy's fall is followed as far as is trusted.
 //! 3. The step is cut to the trusted length, and each node to the way that bodies leave free. It is
 //!    corrected for what turning has lengthened, and halved until the energy falls.
 //! 4. A cloth that lands is far from rest: nodes that ask for more than is trusted are damped, and
 //!    the step is asked for again, so that a flap that swings does not hold the rest back.
 
 use super::{
-    leader::{Leader, Way},
+    factor::Plan,
+    leader::{Leader, Way, plan_of},
     level::Level,
     model::{Answer, exact_answer, longest, near_answer, way_out},
     packed::{Layout, Packed},
     stiffness::{Pattern, Stiffness},
 };
 use crate::math::{Mat3, Vec3};
-use std::sync::Arc;
+use std::{cell::OnceCell, sync::Arc};
 
 /// A node moves at most this part of a pitch in a joint step.
 const LONGEST_MOVE: f64 = 0.4;
@@ -40,6 +41,8 @@ const STEPS_IN_TIME: f64 = 30.0;
 /// Most steps of a finish, and the move [cm] that ends it.
 const FINISHING: usize = 6;
 const FINISHED: f64 = 1e-5;
+/// Lattices of more nodes than this are not factored, which takes n·log n numbers.
+const MOST_FACTORED: usize = 100_000;
 /// Corrections after a joint step.
 const CORRECTIONS: usize = 3;
 /// All nodes are damped tenfold at most so often for a matrix that has no answer.
@@ -53,6 +56,8 @@ pub(super) struct Joint {
     way: Way,
     pattern: Arc<Pattern>,
     layout: Arc<Layout>,
+    /// How the exact matrix is factored: found when it first is.
+    plan: OnceCell<Arc<Plan>>,
     /// Damping of each node in what leads: stiffness per weight [1/cm].
     damping: Vec<f64>,
     /// Length that steps are trusted to [cm].
@@ -109,6 +114,7 @@ impl Joint {
             way,
             layout: Layout::new(&pattern, [free.as_slice()]).into(),
             pattern,
+            plan: OnceCell::new(),
             damping: vec![damping; level.at.len()],
             radius: 0.2 * level.lattice.pitch,
             sight: 0.0,
@@ -179,10 +185,9 @@ impl Joint {
     fn step_after(&mut self, level: &mut Level<'_>, rough: bool, bold: bool) -> Option<Step> {
         level.joint_steps += 1;
         let forces = level.forces(&level.at);
-        let leader = self.leader(level)?;
-        let exact = self.packed(&self.assembled(level, false));
+        let (leader, answer) = self.ask(level, &forces, rough)?;
         let far = level.lattice.pitch;
-        let (moves, exact) = match exact_answer(&leader, &exact, &forces, far, rough) {
+        let (moves, exact) = match answer {
             Answer::Moves(moves) if longest(&moves) < NEAR * far => (moves, true),
             Answer::Moves(moves) | Answer::Downhill(moves) if bold => (moves, false),
             _ => return None,
@@ -198,6 +203,32 @@ impl Joint {
             exact,
             free: exact,
         })
+    }
+
+    /// What the exact stiffness answers to forces [gf], and what leads there.
+    fn ask(&mut self, level: &Level<'_>, forces: &[Vec3], rough: bool) -> Option<(Leader, Answer)> {
+        let exact = self.assembled(level, false);
+        if let Some(factored) = self.factored(level, &exact) {
+            let moves = factored.answer(forces);
+            return Some((factored, Answer::Moves(moves)));
+        }
+        let leader = self.leader(level)?;
+        let far = level.lattice.pitch;
+        let answer = exact_answer(&leader, &self.packed(&exact), forces, far, rough);
+        Some((leader, answer))
+    }
+
+    /// The exact stiffness by its factors: `None` where it is not positive definite, and so the shape
+    /// not known to be stable.
+    fn factored(&self, level: &Level<'_>, exact: &Stiffness) -> Option<Leader> {
+        if level.at.len() > MOST_FACTORED {
+            return None;
+        }
+        let plan = self.plan.get_or_init(|| match &self.way {
+            Way::Factors(plan) => Arc::clone(plan),
+            Way::Levels(_) => plan_of(level, &self.pattern).into(),
+        });
+        Leader::by_factors(plan, exact)
     }
 
     /// Whether a joint step is trusted to go farther than the steps with inertia that could be taken
@@ -280,9 +311,12 @@ impl Joint {
     /// A direction in which the energy falls from a shape without forces, in moves [cm] of any
     /// length; `None` where none was found.
     pub(super) fn way_out(&mut self, level: &Level<'_>) -> Option<Vec<Vec3>> {
+        let exact = self.assembled(level, false);
+        if self.factored(level, &exact).is_some() {
+            return None;
+        }
         let leader = self.leader(level)?;
-        let exact = self.packed(&self.assembled(level, false));
-        way_out(&leader, &exact, &level.any_forces())
+        way_out(&leader, &self.packed(&exact), &level.any_forces())
     }
 
     /// Steps on from one that asked for so much [cm], with the touches as they were last seen, where

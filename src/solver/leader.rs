@@ -40,14 +40,20 @@ impl Way {
         let way = if nodes > FACTORED {
             Self::Levels(Levels::new(&level.lattice.grid, &pattern).into())
         } else {
-            let free = (0..nodes as u32)
-                .filter(|node| !level.held[*node as usize])
-                .collect();
-            let parts = dissect(free, &level.lattice.coordinates, &neighbours);
-            Self::Factors(Plan::new(parts, &neighbours, nodes).into())
+            Self::Factors(plan_of(level, &pattern).into())
         };
         (way, pattern)
     }
+}
+
+/// How a level's matrix is factored.
+pub(super) fn plan_of(level: &Level<'_>, pattern: &Pattern) -> Plan {
+    let nodes = pattern.len();
+    let free = |node: &u32| !level.held[*node as usize];
+    let neighbours = Neighbours::new(nodes, &pattern.pairs());
+    let free = (0..nodes as u32).filter(free).collect();
+    let parts = dissect(free, &level.lattice.coordinates, &neighbours);
+    Plan::new(parts, &neighbours, nodes)
 }
 
 /// A positive matrix, ready to answer.
@@ -63,11 +69,16 @@ impl Leader {
     /// Of a matrix; `None` where it is not positive definite.
     pub(super) fn new(way: &Way, matrix: Stiffness) -> Option<Self> {
         Some(match way {
-            Way::Factors(plan) => Self::Factors(Arc::clone(plan), Factor::new(plan, &matrix)?),
+            Way::Factors(plan) => Self::by_factors(plan, &matrix)?,
             Way::Levels(levels) => {
                 Self::Levels(Arc::clone(levels), Multigrid::new(levels, matrix)?)
             }
         })
+    }
+
+    /// Of a matrix by its factors; `None` where it is not positive definite.
+    pub(super) fn by_factors(plan: &Arc<Plan>, matrix: &Stiffness) -> Option<Self> {
+        Some(Self::Factors(Arc::clone(plan), Factor::new(plan, matrix)?))
     }
 
     /// The moves [cm] that answer forces [gf], or nearly so; held nodes stay.
