@@ -1,38 +1,38 @@
 //! All cores where there are any, one where there is one, the same bits in either case: work is
-//! shared out by place, and sums are taken over blocks that do not depend on how.
+//! shared out by place, and sums are taken over blocks that do not depend on how. Where there is one,
+//! the caller does it all: handing it over would cost more than it takes off.
+
+#[cfg(feature = "threads")]
+fn shared() -> bool {
+    rayon::current_num_threads() > 1
+}
 
 /// Calls `work` on every index of `0..count` and returns the answers in order.
 pub(crate) fn map<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
     #[cfg(feature = "threads")]
-    {
+    if shared() {
         use rayon::prelude::*;
-        (0..count)
+        return (0..count)
             .into_par_iter()
             .with_min_len(64)
             .map(work)
-            .collect()
+            .collect();
     }
-    #[cfg(not(feature = "threads"))]
-    {
-        (0..count).map(work).collect()
-    }
+    (0..count).map(work).collect()
 }
 
 /// The same where each call is long: however few there are, all cores share them.
 pub(crate) fn map_long<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
     #[cfg(feature = "threads")]
-    {
+    if shared() {
         use rayon::prelude::*;
-        (0..count)
+        return (0..count)
             .into_par_iter()
             .with_max_len(1)
             .map(work)
-            .collect()
+            .collect();
     }
-    #[cfg(not(feature = "threads"))]
-    {
-        (0..count).map(work).collect()
-    }
+    (0..count).map(work).collect()
 }
 
 /// Terms that are summed one after the other: a sum has the same bits however it is shared out.
@@ -43,15 +43,12 @@ pub(crate) fn sum(count: usize, term: impl Fn(usize) -> f64 + Sync + Send) -> f6
     let block = |k: usize| -> f64 { (k * BLOCK..count.min((k + 1) * BLOCK)).map(&term).sum() };
     let blocks = count.div_ceil(BLOCK);
     #[cfg(feature = "threads")]
-    {
+    if shared() {
         use rayon::prelude::*;
         let sums: Vec<f64> = (0..blocks).into_par_iter().map(block).collect();
-        sums.into_iter().sum()
+        return sums.into_iter().sum();
     }
-    #[cfg(not(feature = "threads"))]
-    {
-        (0..blocks).map(block).sum()
-    }
+    (0..blocks).map(block).sum()
 }
 
 /// Calls `work` on every chunk of `length` entries (the last may be shorter), with its number.
@@ -64,7 +61,7 @@ pub(crate) fn for_each_chunk<T: Send>(
     {
         use rayon::prelude::*;
         // Below this, waking another core costs more than it takes off.
-        if entries.len() > 1 << 15 {
+        if entries.len() > 1 << 15 && shared() {
             entries
                 .par_chunks_mut(length)
                 .enumerate()
@@ -114,7 +111,7 @@ pub(crate) fn for_each_row<T: Send>(
     {
         use rayon::prelude::*;
         // Below this, waking another core costs more than it takes off.
-        if entries.len() > 1 << 10 && rayon::current_num_threads() > 1 {
+        if entries.len() > 1 << 10 && shared() {
             entries
                 .par_chunks_mut(8 * length)
                 .enumerate()
@@ -131,11 +128,8 @@ pub(crate) fn both<A: Send, B: Send>(
     other: impl FnOnce() -> B + Send,
 ) -> (A, B) {
     #[cfg(feature = "threads")]
-    {
-        rayon::join(one, other)
+    if shared() {
+        return rayon::join(one, other);
     }
-    #[cfg(not(feature = "threads"))]
-    {
-        (one(), other())
-    }
+    (one(), other())
 }

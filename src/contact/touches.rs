@@ -75,13 +75,6 @@ pub struct Touches {
     pub(super) places: Vec<Places>,
 }
 
-/// A site with a surface near it.
-struct Found {
-    number: u32,
-    site: Site,
-    near: Near,
-}
-
 impl Touches {
     /// Of a lattice's sites; none are found before the first [`refresh`](Self::refresh).
     #[must_use]
@@ -119,25 +112,25 @@ impl Touches {
             return;
         }
         let reach = self.surface.node_reach() + way;
-        let nodes = threads::map(at.len(), |node| self.look(node, &at[node], bodies, reach));
+        let nodes = threads::map(at.len(), |node| {
+            let (clearance, nears) = self.look(node, &at[node], bodies, reach);
+            let touch = |near: Near| self.touch(node as u32, self.sites.node(node), &near, at);
+            (clearance, nears.into_iter().map(touch).collect())
+        });
         let mut fresh = Vec::with_capacity(self.touches.len());
-        for (node, (clearance, nears)) in nodes.into_iter().enumerate() {
+        for (node, (clearance, mut touches)) in nodes.into_iter().enumerate() {
             if let Some(clearance) = clearance {
                 self.clearance[node] = (clearance, at[node]);
             }
-            for near in nears {
-                fresh.push(self.touch(node as u32, self.sites.node(node), &near, at));
-            }
+            fresh.append(&mut touches);
         }
         let reach = self.surface.sample_reach() + sample_way;
         let cells = threads::map(self.places.len(), |cell| {
             self.look_at_cell(cell, at, bodies, reach)
         });
-        for (cell, (places, found)) in cells.into_iter().enumerate() {
-            for found in found {
-                fresh.push(self.touch(found.number, found.site, &found.near, at));
-            }
-            self.places[cell] = places;
+        for (known, (places, mut touches)) in self.places.iter_mut().zip(cells) {
+            fresh.append(&mut touches);
+            *known = places;
         }
         self.touches = fresh;
         self.list_awake(|_| true);
@@ -170,7 +163,7 @@ impl Touches {
         at: &[Vec3],
         bodies: &Bodies,
         reach: f64,
-    ) -> (Places, Vec<Found>) {
+    ) -> (Places, Vec<Touch>) {
         let wide = reach.max(FEATURE_REACH * self.pitch);
         if self.clear_of(cell, at) > wide {
             return ([None; PLACES], Vec::new());
@@ -193,11 +186,7 @@ impl Touches {
         for (k, (place, nears)) in all.into_iter().enumerate() {
             let site = self.sites.in_cell(cell, place);
             let nears = nears.into_iter().filter(|near| near.distance <= reach);
-            found.extend(nears.map(|near| Found {
-                number: (first + k) as u32,
-                site,
-                near,
-            }));
+            found.extend(nears.map(|near| self.touch((first + k) as u32, site, &near, at)));
         }
         (places, found)
     }
@@ -332,16 +321,32 @@ impl Touches {
     /// Contact projection: brings sites that a long move took deep into the skin back to where they
     /// press little harder than before. `may_move` says which nodes may be moved for it.
     pub fn bring_back(&self, from: &[Vec3], to: &mut [Vec3], may_move: impl Fn(usize) -> bool) {
-        for touch in self.each_awake() {
+        let excess = |touch: &Touch, to: &[Vec3]| {
             let depth = |at: &[Vec3]| touch.top - touch.normal.dot(&touch.site.at(at));
-            let excess = depth(to) - depth(from).max(0.0) - touch.skin.depth;
-            if excess <= 0.0 {
+            depth(to) - depth(from).max(0.0) - touch.skin.depth
+        };
+        let excesses = threads::map(self.awake.len(), |k| {
+            excess(&self.touches[self.awake[k] as usize], to)
+        });
+        if excesses.iter().all(|excess| *excess <= 0.0) {
+            return;
+        }
+        let mut moved = vec![false; to.len()];
+        for (touch, before) in self.each_awake().zip(excesses) {
+            let nodes = touch.site.nodes;
+            let now = if nodes.iter().any(|node| moved[*node as usize]) {
+                excess(touch, to)
+            } else {
+                before
+            };
+            if now <= 0.0 {
                 continue;
             }
             let square: f64 = touch.site.shares().map(|(_, weight)| weight * weight).sum();
             for (node, weight) in touch.site.shares() {
                 if may_move(node as usize) {
-                    to[node as usize] += touch.normal * (excess * weight / square);
+                    to[node as usize] += touch.normal * (now * weight / square);
+                    moved[node as usize] = true;
                 }
             }
         }

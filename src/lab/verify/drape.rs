@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// Layings at half the pitch; of cloth that bends over a longer way than this [cm], as paper does,
-/// one, for it takes nine minutes.
+/// one, for it takes minutes.
 const FEW: u32 = 2;
 const STIFF: f64 = 3.0;
 
