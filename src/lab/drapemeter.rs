@@ -21,6 +21,8 @@ use std::{f64::consts::PI, sync::Mutex};
 
 /// A crest that stands out by less of the ring's width is no fold.
 const LEAST_FOLD: f64 = 0.05;
+/// Cloth with a bending length above this part of the ring's width hangs in few, wide folds.
+const FEW_FOLDS: f64 = 0.25;
 /// Height of the supporting disc [cm].
 const SUPPORT: f64 = 1.0;
 
@@ -73,14 +75,17 @@ pub struct Drapes {
 
 impl Drapemeter {
     /// Cusick's, at a pitch that a fabric's bends need: half its lesser bending length, but 0.25 to
-    /// 0.4 cm, for the ring has 6 cm to fold in whatever it is made of.
+    /// 0.5 cm, and to 0.4 cm of a cloth that bends over so much of the hanging ring that each of its
+    /// few folds counts.
     #[must_use]
     pub fn of(fabric: &Fabric) -> Self {
         let [warp, weft] = [Yarn::Warp, Yarn::Weft].map(|yarn| fabric.bending_length(yarn));
-        let pitch = (0.5 * warp.min(weft)).clamp(0.25, 0.4);
+        let (length, usual) = (warp.min(weft), Self::default());
+        let few_folds = length > FEW_FOLDS * (usual.radius - usual.support);
+        let coarsest = if few_folds { 0.4 } else { 0.5 };
         Self {
-            pitch,
-            ..Self::default()
+            pitch: (0.5 * length).clamp(0.25, coarsest),
+            ..usual
         }
     }
 
