@@ -41,7 +41,7 @@ const STEPS_IN_TIME: f64 = 30.0;
 /// Most steps of a finish, and the move [cm] that ends it.
 const FINISHING: usize = 6;
 const FINISHED: f64 = 1e-5;
-/// Lattices of more nodes than this are not factored, which takes n·log n numbers.
+/// Lattices of more nodes than this are not factored: it takes n^1.5 operations.
 const MOST_FACTORED: usize = 100_000;
 /// Corrections after a joint step.
 const CORRECTIONS: usize = 3;
