@@ -224,7 +224,10 @@ fn border_of(matrix: &[f64], order: usize, own: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::{
-        super::{dissection::dissect, stiffness::Pattern},
+        super::{
+            dissection::dissect,
+            stiffness::{Pattern, Sum},
+        },
         *,
     };
     use crate::math::{Mat3, Vec2};
@@ -319,11 +322,11 @@ mod tests {
         fn factor(&self) -> Option<Factor> {
             let held: Vec<bool> = (0..self.nodes).map(|node| self.is_held(node)).collect();
             let pattern = Pattern::new(&self.neighbours, &held);
-            let mut stiffness = Stiffness::new(pattern.into());
+            let mut stiffness = Sum::new(pattern.into());
             for (row, column, block) in &self.blocks {
                 stiffness.add(*row, *column, block);
             }
-            Factor::new(&self.plan, &stiffness)
+            Factor::new(&self.plan, &stiffness.whole())
         }
 
         /// The moves that answer forces.
