@@ -1,7 +1,7 @@
 //! Leaps: a cloth far from rest goes the way that the joint system asks for, straight, and then comes
 //! back to its own lengths by a few steps with inertia, which take back little of the way but what
-//! lengthens it. The energy is compared after that: along the straight way alone it falls for a tenth
-//! of the way at most, since rods that turn by an angle φ are longer by ½·φ².
+//! lengthens it. The energy is compared after that: along the straight way alone it soon rises, since
+//! rods that turn by an angle φ are longer by ½·φ².
 
 use super::{
     inertia::Inertia,
