@@ -25,7 +25,7 @@ const SKIN_PRESSURE: f64 = 10.0;
 const SKIN: f64 = 0.01;
 /// The finest lattice shows how deep it lies: its skins end at these [cm].
 const THINNEST_SKIN: f64 = 0.004;
-const NODE_SKIN: f64 = 0.006;
+const NODE_SKIN: f64 = 0.01;
 /// Samples of a wider lattice take in the edges of its cells [cm]: there cloth that is folded round a
 /// wrist lies a few hundredths deeper than where samples half a distance away touch.
 const SAMPLE_DISTANCE: f64 = 0.25;

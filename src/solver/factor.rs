@@ -224,10 +224,7 @@ fn border_of(matrix: &[f64], order: usize, own: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::{
-        super::{
-            dissection::dissect,
-            stiffness::{Pattern, Sum},
-        },
+        super::{dissection::dissect, stiffness::Pattern},
         *,
     };
     use crate::math::{Mat3, Vec2};
@@ -322,11 +319,11 @@ mod tests {
         fn factor(&self) -> Option<Factor> {
             let held: Vec<bool> = (0..self.nodes).map(|node| self.is_held(node)).collect();
             let pattern = Pattern::new(&self.neighbours, &held);
-            let mut stiffness = Sum::new(pattern.into());
+            let mut stiffness = Stiffness::new(pattern.into());
             for (row, column, block) in &self.blocks {
                 stiffness.add(*row, *column, block);
             }
-            Factor::new(&self.plan, &stiffness.whole())
+            Factor::new(&self.plan, &stiffness)
         }
 
         /// The moves that answer forces.

@@ -8,7 +8,7 @@
 
 use super::{
     joint::Joint,
-    leader::Guide,
+    leader::Leader,
     level::Level,
     model::longest,
     rest::{Run, Standing},
@@ -30,13 +30,10 @@ const FREED: f64 = 0.8;
 const LEAST_DAMPING: f64 = 0.02;
 /// No node is in haste when none asks for more than this part of the longest move.
 const CALM: f64 = 0.2;
-/// Touches are felt as far away as so many last steps of their nodes go and this part of the longest,
-/// or the whole of it after a stop; they are found as far as so many ways since the last look and this
-/// part of what the fastest could go.
-const AWAKE: f64 = 3.0;
-const AWAKE_ANYWHERE: f64 = 0.3;
-const SEEN: f64 = 2.0;
-const SEEN_ANYWHERE: f64 = 0.2;
+/// Touches farther away than so many moves of the last step are not felt in the next; those that are
+/// felt are found for three times as far.
+const AWAKE: f64 = 2.0;
+const AWAKE_LATER: f64 = 3.0;
 /// A stop after more steps than this, with no node in haste, is one near rest.
 const LONG_RUN: usize = 30;
 
@@ -50,8 +47,8 @@ pub(super) struct Inertia {
     /// Longest ways of a step, since the last look and of the last step [cm].
     fastest: f64,
     pub(super) last: f64,
-    /// Positions at the last look [cm].
-    seen: Vec<Vec3>,
+    /// How far nodes may still go before other touches could be felt [cm].
+    clear: f64,
 }
 
 impl Inertia {
@@ -62,16 +59,7 @@ impl Inertia {
             run: 0,
             fastest: level.lattice.pitch,
             last: level.lattice.pitch,
-            seen: level.at.clone(),
-        }
-    }
-
-    /// Of a cloth that has just leapt so far [cm].
-    pub(super) fn after(level: &Level<'_>, way: f64) -> Self {
-        Self {
-            fastest: way,
-            last: way,
-            ..Self::none(level)
+            clear: 0.0,
         }
     }
 
@@ -86,33 +74,15 @@ impl Inertia {
         self.before.clone_from(&to);
         self.run = 0;
         level.at = to;
+        self.clear = 0.0;
     }
 
-    /// Wakes the touches that could be felt in a step, and measures what is clear for it, by how far each
-    /// node went in the last one.
-    fn wake(&self, level: &mut Level<'_>) {
-        let anywhere = if self.run == 0 { 1.0 } else { AWAKE_ANYWHERE };
-        let (before, at) = (&self.before, &level.at);
-        let way = |node: usize| AWAKE * (at[node] - before[node]).norm() + anywhere * self.last;
-        let ways: Vec<f64> = threads::map(at.len(), way);
-        level.touches.wake(&level.at, |node| ways[node]);
-        level
-            .touches
-            .measure(&level.at, level.bodies, |node| ways[node]);
-    }
-
-    /// Looks about for as long as the next steps may go, by how the nodes went since the last look.
-    fn look(&mut self, level: &mut Level<'_>) {
-        let pitch = level.lattice.pitch;
-        let any = (LOOKED_EVERY as f64 * self.fastest).clamp(0.005 * pitch, 0.8 * pitch);
-        let way = |node: usize| {
-            let gone = (level.at[node] - self.seen[node]).norm();
-            (SEEN * gone + SEEN_ANYWHERE * any).min(2.0 * any)
-        };
-        let ways: Vec<f64> = threads::map(level.at.len(), way);
-        level.look_about(&ways);
-        self.seen.clone_from(&level.at);
-        self.fastest = 0.0;
+    /// Wakes the touches that could be felt by moves of `way` [cm], unless they are awake.
+    fn wake(&mut self, level: &mut Level<'_>, way: f64) {
+        if self.clear < way {
+            self.clear = AWAKE_LATER * way;
+            level.touches.wake(&level.at, self.clear);
+        }
     }
 }
 
@@ -126,26 +96,31 @@ impl Run<'_> {
         level: &mut Level<'_>,
         joint: &mut Joint,
         inertia: &mut Inertia,
+        number: usize,
         standing: &Standing,
         most: usize,
     ) {
         let pitch = level.lattice.pitch;
         let cap = LONGEST_MOVE * pitch;
         let mut energy = f64::INFINITY;
-        let mut guide = None;
+        let mut leader = None;
         for step in 0..most {
             if step % LOOKED_EVERY == 0 {
-                if !self.goes_on(level, standing) {
+                if !self.goes_on(level, number, standing) {
                     return;
                 }
-                inertia.look(level);
+                let way =
+                    (2.0 * LOOKED_EVERY as f64 * inertia.fastest).clamp(0.005 * pitch, 0.8 * pitch);
+                level.look(way, way);
                 energy = f64::INFINITY;
-                guide = None;
+                inertia.clear = 0.0;
+                inertia.fastest = 0.0;
+                leader = None;
             }
-            if guide.is_none() {
-                guide = joint.guide(level);
+            if leader.is_none() {
+                leader = joint.leader(level);
             }
-            let Some(leads) = &guide else { return };
+            let Some(leads) = &leader else { return };
             let stride = level.stride(leads, inertia, cap);
             inertia.fastest = f64::max(inertia.fastest, stride.made);
             inertia.last = stride.made;
@@ -159,7 +134,7 @@ impl Run<'_> {
             if now > energy + 1e-12 * energy.abs().max(1.0) {
                 if inertia.run == 0 {
                     joint.damp_all(pitch);
-                    guide = None;
+                    leader = None;
                 }
                 inertia.go_back(level, stride.from);
                 continue;
@@ -167,7 +142,7 @@ impl Run<'_> {
             energy = if calm { f64::INFINITY } else { now };
             inertia.before = stride.from;
             if joint.damp(&stride.asked, cap, TOO_FAR) {
-                guide = None;
+                leader = None;
             }
             joint.free(&stride.asked, cap, FREED, LEAST_DAMPING);
             let at_turn = stride.climbs && inertia.run > LONG_RUN && calm;
@@ -193,10 +168,9 @@ struct Stride {
 
 impl Level<'_> {
     /// One step with inertia, no node led farther than `cap` [cm].
-    fn stride(&mut self, guide: &Guide, inertia: &mut Inertia, cap: f64) -> Stride {
+    fn stride(&mut self, leader: &Leader, inertia: &mut Inertia, cap: f64) -> Stride {
         let from = self.at.clone();
         let run = inertia.run as f64;
-        inertia.wake(self);
         if inertia.run > 0 {
             self.at = self.freely(|node| {
                 // Friction takes up what goes on by itself.
@@ -208,14 +182,18 @@ impl Level<'_> {
                 (from[node] - inertia.before[node]) * part
             });
         }
+        inertia.wake(self, AWAKE * inertia.last);
         let begun = self.at.clone();
-        let asked = guide.answer(&self.quick_forces());
+        let asked = leader.answer_smoothly(&self.quick_forces());
         self.at = self.freely(|node| {
             let way = asked[node] * PART;
             way * (cap / way.norm().max(cap))
         });
         self.sweep();
         let (made, climbs) = judge(&from, &begun, &self.at);
+        // What was gone inertly before the touches were woken counts as well, to be safe.
+        inertia.clear -= made;
+        inertia.wake(self, 0.0);
         Stride {
             from,
             asked,

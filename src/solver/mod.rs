@@ -10,7 +10,6 @@ mod follow;
 mod inertia;
 mod joint;
 mod leader;
-mod leap;
 mod level;
 mod model;
 mod moving;
