@@ -1,14 +1,21 @@
-//! Dense Cholesky of the first columns of a front, in tiles of 4×4 that stay in registers.
+//! Dense Cholesky of the first columns of a front, panel by panel, in tiles that stay in registers.
+//!
+//! 1. The panel's own triangle is factored.
+//! 2. The rows below it are laid out in strips of eight, each solved with the triangle.
+//! 3. What the strips make with each other is taken off the columns after the panel.
 //!
 //! Every number is the sum of the same products in the same order whatever the machine: no fused
-//! multiply-add, no sum split over lanes. Trailing columns may be shared out over cores.
+//! multiply-add, no sum split over lanes. Strips and trailing columns may be shared out over cores.
 
-use crate::threads;
+use crate::{
+    lanes::{Lanes, Simd, WIDEST, WithSimd, widest},
+    threads,
+};
 
 /// Columns that are factored before the rest of the front is updated with them.
 const PANEL: usize = 48;
-/// Side of a register tile.
-const TILE: usize = 4;
+/// Rows of a strip, and side of a tile.
+const STRIP: usize = WIDEST;
 
 /// Factors the first `pivots` columns of a symmetric matrix (lower half, column-major, `order`
 /// rows) in place: on return they hold L, and the rest holds the Schur complement.
@@ -18,24 +25,48 @@ pub(super) fn factor(matrix: &mut [f64], order: usize, pivots: usize) -> bool {
     let mut start = 0;
     while start < pivots {
         let width = PANEL.min(pivots - start);
-        if !factor_panel(matrix, order, start, width) {
+        if !factor_triangle(matrix, order, start, width) {
             return false;
         }
-        update_trailing(matrix, order, start, width);
-        start += width;
+        let below = start + width;
+        let mut strips = pack(matrix, order, start, width);
+        let triangle = triangle(matrix, order, start, width);
+        threads::for_each_chunk(&mut strips, width * STRIP, |_, strip| {
+            widest(Solve {
+                triangle: &triangle,
+                strip,
+            });
+        });
+        unpack(&strips, matrix, order, start, width);
+        threads::for_each_chunk(
+            &mut matrix[below * order..],
+            STRIP * order,
+            |block, columns| {
+                widest(Update {
+                    columns,
+                    order,
+                    below,
+                    block,
+                    size: width * STRIP,
+                    strips: &strips,
+                });
+            },
+        );
+        start = below;
     }
     true
 }
 
-/// Factors the columns `start..start + width`, rows below included.
-fn factor_panel(matrix: &mut [f64], order: usize, start: usize, width: usize) -> bool {
-    for column in start..start + width {
+/// Factors the rows and columns `start..start + width`.
+fn factor_triangle(matrix: &mut [f64], order: usize, start: usize, width: usize) -> bool {
+    let below = start + width;
+    for column in start..below {
         let (before, here) = matrix.split_at_mut(column * order);
-        let here = &mut here[column..order];
-        for earlier in start..column {
-            let column_earlier = &before[earlier * order + column..(earlier + 1) * order];
-            let factor = column_earlier[0];
-            for (entry, other) in here.iter_mut().zip(column_earlier) {
+        let here = &mut here[column..below];
+        for earlier in before[start * order..].chunks_exact(order) {
+            let earlier = &earlier[column..below];
+            let factor = earlier[0];
+            for (entry, other) in here.iter_mut().zip(earlier) {
                 *entry -= factor * other;
             }
         }
@@ -52,80 +83,185 @@ fn factor_panel(matrix: &mut [f64], order: usize, start: usize, width: usize) ->
     true
 }
 
-/// Takes the panel's outer product off the columns after it.
-fn update_trailing(matrix: &mut [f64], order: usize, start: usize, width: usize) {
-    let first = start + width;
-    if first >= order {
-        return;
-    }
-    let strips = pack(matrix, order, start, width, first);
-    let trailing = &mut matrix[first * order..];
-    threads::for_each_chunk(trailing, TILE * order, |block, columns| {
-        update_columns(columns, order, first, block, width, &strips);
-    });
+/// The rows of the panel's triangle one after the other, each up to its diagonal.
+fn triangle(matrix: &[f64], order: usize, start: usize, width: usize) -> Vec<f64> {
+    let row = |k: usize| (0..=k).map(move |c| matrix[(start + c) * order + start + k]);
+    (0..width).flat_map(row).collect()
 }
 
-/// The panel's rows from `first` on, four rows at a time, so that a tile reads them in order.
-fn pack(matrix: &[f64], order: usize, start: usize, width: usize, first: usize) -> Vec<f64> {
-    let strips = (order - first).div_ceil(TILE);
-    let mut packed = vec![0.0; strips * width * TILE];
-    for (k, column) in matrix[start * order..(start + width) * order]
-        .chunks_exact(order)
-        .enumerate()
-    {
-        for (row, value) in column[first..].iter().enumerate() {
-            packed[(row / TILE * width + k) * TILE + row % TILE] = *value;
+/// The panel's rows below its triangle, eight at a time, so that a tile reads them in order; rows that
+/// the last strip lacks are 0.
+fn pack(matrix: &[f64], order: usize, start: usize, width: usize) -> Vec<f64> {
+    let below = start + width;
+    let size = width * STRIP;
+    let mut strips = vec![0.0; (order - below).div_ceil(STRIP) * size];
+    let columns = matrix[start * order..below * order].chunks_exact(order);
+    for (k, column) in columns.enumerate() {
+        let rows = column[below..].chunks(STRIP);
+        for (strip, rows) in strips.chunks_exact_mut(size).zip(rows) {
+            strip[k * STRIP..][..rows.len()].copy_from_slice(rows);
         }
     }
-    packed
+    strips
 }
 
-/// Updates the columns of one block of four.
-fn update_columns(
-    columns: &mut [f64],
-    order: usize,
-    first: usize,
-    block: usize,
-    width: usize,
-    strips: &[f64],
-) {
-    let size = width * TILE;
-    let across = &strips[block * size..(block + 1) * size];
-    let count = columns.len() / order;
-    for (strip, down) in strips.chunks_exact(size).enumerate().skip(block) {
-        let tile = multiply(down, across);
-        let top = first + strip * TILE;
-        let rows = TILE.min(order - top);
-        for (c, sums) in tile.iter().enumerate().take(count) {
-            let entries = &mut columns[c * order + top..c * order + top + rows];
-            for (entry, sum) in entries.iter_mut().zip(sums) {
-                *entry -= sum;
+/// The strips back in their places.
+fn unpack(strips: &[f64], matrix: &mut [f64], order: usize, start: usize, width: usize) {
+    let below = start + width;
+    let columns = matrix[start * order..below * order].chunks_exact_mut(order);
+    for (k, column) in columns.enumerate() {
+        let rows = column[below..].chunks_mut(STRIP);
+        for (strip, rows) in strips.chunks_exact(width * STRIP).zip(rows) {
+            rows.copy_from_slice(&strip[k * STRIP..][..rows.len()]);
+        }
+    }
+}
+
+/// A strip of the rows below a triangle, to be solved with it.
+struct Solve<'a> {
+    /// The triangle's rows, each up to its diagonal.
+    triangle: &'a [f64],
+    /// Eight numbers for each of its columns.
+    strip: &'a mut [f64],
+}
+
+impl WithSimd for Solve<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        match Lanes::<S>::COUNT {
+            8 => self.by::<S, 1>(simd),
+            4 => self.by::<S, 2>(simd),
+            2 => self.by::<S, 4>(simd),
+            _ => self.by::<S, 8>(simd),
+        }
+    }
+}
+
+impl Solve<'_> {
+    /// By so many lanes for eight rows.
+    #[inline(always)]
+    fn by<S: Simd, const LANES: usize>(self, simd: S) {
+        let mut row = self.triangle;
+        for column in 0..self.strip.len() / STRIP {
+            let (factors, rest) = row.split_at(column + 1);
+            row = rest;
+            let (solved, here) = self.strip.split_at_mut(column * STRIP);
+            let mut sums = eight::<S, LANES>(simd, here);
+            for (eights, factor) in solved.chunks_exact(STRIP).zip(factors) {
+                let factor = Lanes::of(simd, *factor);
+                for (sum, other) in sums.iter_mut().zip(eight::<S, LANES>(simd, eights)) {
+                    *sum = *sum - factor * other;
+                }
+            }
+            let root = Lanes::of(simd, factors[column]);
+            for (sum, to) in sums.iter().zip(here.chunks_exact_mut(Lanes::<S>::COUNT)) {
+                sum.over(root).write(to);
             }
         }
     }
 }
 
-/// The 4×4 product of two packed strips, by columns.
-fn multiply(down: &[f64], across: &[f64]) -> [[f64; TILE]; TILE] {
-    let mut tile = [[0.0; TILE]; TILE];
-    for (d, a) in down.chunks_exact(TILE).zip(across.chunks_exact(TILE)) {
-        for (sums, factor) in tile.iter_mut().zip(a) {
-            for (sum, value) in sums.iter_mut().zip(d) {
-                *sum += factor * value;
+/// The columns of one block of eight after a panel, and the panel's strips.
+struct Update<'a> {
+    columns: &'a mut [f64],
+    order: usize,
+    /// First row and column below the panel.
+    below: usize,
+    /// Which eight columns these are.
+    block: usize,
+    /// Numbers of a strip.
+    size: usize,
+    strips: &'a [f64],
+}
+
+impl WithSimd for Update<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        match Lanes::<S>::COUNT {
+            8 => self.by::<S, 1, 8>(simd),
+            4 => self.by::<S, 2, 4>(simd),
+            2 => self.by::<S, 4, 2>(simd),
+            _ => self.by::<S, 8, 1>(simd),
+        }
+    }
+}
+
+impl Update<'_> {
+    /// By tiles of eight rows, in so many lanes, and of so many columns.
+    #[inline(always)]
+    fn by<S: Simd, const LANES: usize, const WIDE: usize>(self, simd: S) {
+        let across = &self.strips[self.block * self.size..][..self.size];
+        let strips = self.strips.chunks_exact(self.size).enumerate();
+        for (strip, down) in strips.skip(self.block) {
+            let top = self.below + strip * STRIP;
+            let rows = STRIP.min(self.order - top);
+            let columns = self.columns.chunks_exact_mut(self.order);
+            let mut columns = columns.map(|column| &mut column[top..top + rows]);
+            for first in (0..STRIP).step_by(WIDE) {
+                let tile = tile::<S, LANES, WIDE>(simd, down, across, first);
+                for (sums, entries) in tile.iter().zip(columns.by_ref().take(WIDE)) {
+                    subtract(sums, entries);
+                }
+            }
+        }
+    }
+}
+
+/// The product of a strip's eight rows with some of the columns that another is of, by columns.
+#[inline(always)]
+fn tile<S: Simd, const LANES: usize, const WIDE: usize>(
+    simd: S,
+    down: &[f64],
+    across: &[f64],
+    first: usize,
+) -> [[Lanes<S>; LANES]; WIDE] {
+    let mut tile = [[Lanes::of(simd, 0.0); LANES]; WIDE];
+    for (down, across) in down.chunks_exact(STRIP).zip(across.chunks_exact(STRIP)) {
+        let rows = eight::<S, LANES>(simd, down);
+        for (sums, factor) in tile.iter_mut().zip(&across[first..first + WIDE]) {
+            let factor = Lanes::of(simd, *factor);
+            for (sum, row) in sums.iter_mut().zip(rows) {
+                *sum = *sum + factor * row;
             }
         }
     }
     tile
 }
 
+/// Takes sums off eight entries, or fewer.
+#[inline(always)]
+fn subtract<S: Simd, const LANES: usize>(sums: &[Lanes<S>; LANES], entries: &mut [f64]) {
+    for (sum, entries) in sums.iter().zip(entries.chunks_mut(Lanes::<S>::COUNT)) {
+        (Lanes::read(sum.kind(), entries) - *sum).write(entries);
+    }
+}
+
+/// The first eight numbers of a list.
+#[inline(always)]
+fn eight<S: Simd, const LANES: usize>(simd: S, numbers: &[f64]) -> [Lanes<S>; LANES] {
+    let mut eight = [Lanes::of(simd, 0.0); LANES];
+    for (lanes, numbers) in eight
+        .iter_mut()
+        .zip(numbers.chunks_exact(Lanes::<S>::COUNT))
+    {
+        *lanes = Lanes::read(simd, numbers);
+    }
+    eight
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::OneByOne;
     use nalgebra::DMatrix;
     use proptest::prelude::*;
 
     /// A unit lower triangle, from numbers between −1 and 1.
-    fn triangle(order: usize, numbers: &[f64]) -> DMatrix<f64> {
+    fn lower(order: usize, numbers: &[f64]) -> DMatrix<f64> {
         DMatrix::from_fn(order, order, |r, c| match r.cmp(&c) {
             core::cmp::Ordering::Less => 0.0,
             core::cmp::Ordering::Equal => 1.0,
@@ -148,7 +284,7 @@ mod tests {
 
         #[test]
         fn the_columns_are_choleskys_and_the_rest_is_schurs((order, pivots, numbers) in sizes()) {
-            let lower = triangle(order, &numbers);
+            let lower = lower(order, &numbers);
             let matrix = &lower * lower.transpose();
             let mut factored = matrix.as_slice().to_vec();
             prop_assert!(factor(&mut factored, order, pivots));
@@ -177,7 +313,7 @@ mod tests {
             bad in prop::sample::select(&[-1.0, -1e-6, f64::NAN, f64::NEG_INFINITY][..]),
         ) {
             let place = place.index(order);
-            let lower = triangle(order, &numbers);
+            let lower = lower(order, &numbers);
             let mut diagonal = DMatrix::identity(order, order);
             diagonal[(place, place)] = bad.max(-1.0);
             let mut matrix = &lower * diagonal * lower.transpose();
@@ -187,6 +323,43 @@ mod tests {
             let factored = factor(matrix.as_mut_slice(), order, pivots);
             prop_assert_eq!(factored, place >= pivots);
         }
+    }
+
+    /// The widest lanes of this machine, and none.
+    #[test]
+    fn a_strip_and_a_tile_have_the_same_bits_in_any_lanes() {
+        let numbers: Vec<f64> = (0..997).map(|k| libm::sin(f64::from(k) * 1.7)).collect();
+        let (width, order, below) = (5, 21, 3);
+        let size = width * STRIP;
+        let triangle: Vec<f64> = numbers[..15].iter().map(|number| 2.0 + number).collect();
+        let solved = |by: fn(Solve<'_>)| {
+            let mut strip = numbers[..size].to_vec();
+            by(Solve {
+                triangle: &triangle,
+                strip: &mut strip,
+            });
+            strip
+        };
+        assert_eq!(
+            solved(|work| widest(work)),
+            solved(|work| work.with_simd(OneByOne))
+        );
+        let updated = |by: fn(Update<'_>)| {
+            let mut columns = numbers[..6 * order].to_vec();
+            by(Update {
+                columns: &mut columns,
+                order,
+                below,
+                block: 1,
+                size,
+                strips: &numbers[400..][..3 * size],
+            });
+            columns
+        };
+        assert_eq!(
+            updated(|work| widest(work)),
+            updated(|work| work.with_simd(OneByOne))
+        );
     }
 
     #[test]
