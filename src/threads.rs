@@ -35,6 +35,22 @@ pub(crate) fn map_long<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync +
     (0..count).map(work).collect()
 }
 
+/// Calls `work` on every index of `0..count` and hands the answers to `take`, in order: a batch of them
+/// at a time, so that they need not be stored.
+pub(crate) fn in_turn<T: Send>(
+    count: usize,
+    work: impl Fn(usize) -> T + Sync + Send,
+    mut take: impl FnMut(usize, T),
+) {
+    const BATCH: usize = 2048;
+    for first in (0..count).step_by(BATCH) {
+        let answers = map(BATCH.min(count - first), |k| work(first + k));
+        for (k, answer) in answers.into_iter().enumerate() {
+            take(first + k, answer);
+        }
+    }
+}
+
 /// Terms that are summed one after the other: a sum has the same bits however it is shared out.
 const BLOCK: usize = 1024;
 

@@ -141,7 +141,7 @@ impl Laid {
 
     fn look(&self, touches: &mut Touches) {
         let way = 0.1 * self.problem.piece.pitch;
-        touches.refresh(&self.at, &self.problem.bodies, way, way);
+        touches.refresh(&self.at, &self.problem.bodies, |_| [way, way]);
     }
 
     fn touches(&self) -> Touches {

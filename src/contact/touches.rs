@@ -105,14 +105,20 @@ impl Touches {
         &self.touches
     }
 
-    /// Looks again which sites are near a body: nodes that could touch after a move of `way` [cm],
-    /// samples after one of `sample_way`. Anchors of touches that go on are kept.
-    pub fn refresh(&mut self, at: &[Vec3], bodies: &Bodies, way: f64, sample_way: f64) {
+    /// Looks again which sites are near a body: those that could touch after such moves of the nodes
+    /// [cm] as `ways` has them, first of a node itself, then of the samples beside it. Anchors of
+    /// touches that go on are kept.
+    pub fn refresh(
+        &mut self,
+        at: &[Vec3],
+        bodies: &Bodies,
+        ways: impl Fn(usize) -> [f64; 2] + Sync + Send,
+    ) {
         if bodies.parts().is_empty() {
             return;
         }
-        let reach = self.surface.node_reach() + way;
         let nodes = threads::map(at.len(), |node| {
+            let reach = self.surface.node_reach() + ways(node)[0];
             let (clearance, nears) = self.look(node, &at[node], bodies, reach);
             let touch = |near: Near| self.touch(node as u32, self.sites.node(node), &near, at);
             (clearance, nears.into_iter().map(touch).collect())
@@ -124,8 +130,12 @@ impl Touches {
             }
             fresh.append(&mut touches);
         }
-        let reach = self.surface.sample_reach() + sample_way;
         let cells = threads::map(self.places.len(), |cell| {
+            let nodes = self.sites.cells()[cell].iter();
+            let way = nodes
+                .map(|node| ways(*node as usize)[1])
+                .fold(0.0, f64::max);
+            let reach = self.surface.sample_reach() + way;
             self.look_at_cell(cell, at, bodies, reach)
         });
         for (known, (places, mut touches)) in self.places.iter_mut().zip(cells) {
@@ -288,14 +298,48 @@ impl Touches {
     }
 
     /// Leaves out of energy and forces, until the next look, all touches that neither press nor rub
-    /// nor would after moves of `way` [cm].
-    pub fn wake(&mut self, at: &[Vec3], way: f64) {
+    /// nor would after such moves of their nodes [cm].
+    pub fn wake(&mut self, at: &[Vec3], way: impl Fn(usize) -> f64 + Sync + Send) {
         let wakes = threads::map(self.touches.len(), |k| {
             let touch = &self.touches[k];
+            if touch.friction.limit > 0.0 {
+                return true;
+            }
             let clear = touch.normal.dot(&touch.site.at(at)) - touch.top;
-            touch.friction.limit > 0.0 || clear < way
+            let shares = touch.site.shares();
+            clear
+                < shares
+                    .map(|(node, _)| way(node as usize))
+                    .fold(0.0, f64::max)
         });
         self.list_awake(|k| wakes[k]);
+    }
+
+    /// Measures anew how far surfaces are from nodes that such moves [cm] could take out of what is
+    /// known to be clear.
+    pub fn measure(
+        &mut self,
+        at: &[Vec3],
+        bodies: &Bodies,
+        way: impl Fn(usize) -> f64 + Sync + Send,
+    ) {
+        if bodies.parts().is_empty() {
+            return;
+        }
+        let measured = threads::map(at.len(), |node| {
+            let (clear, there) = self.clearance[node];
+            let gone = (at[node] - there).norm();
+            if clear - gone >= way(node) || gone < 0.25 * clear {
+                return None;
+            }
+            let wide = 2.0 * self.surface.node_reach() + self.pitch;
+            Some((nearest_of(&bodies.near(&at[node], wide), wide), at[node]))
+        });
+        for (known, measured) in self.clearance.iter_mut().zip(measured) {
+            if let Some(measured) = measured {
+                *known = measured;
+            }
+        }
     }
 
     /// Sets every friction limit to µ times the normal force now. Touches that do not press let

@@ -131,36 +131,39 @@ pub fn turn_stiffness(u: &Vec3, v: &Vec3, stiffness: f64, rest: f64) -> TurnStif
 /// positive semi-definite for all.
 #[must_use]
 pub fn turn_stiffness_positive(u: &Vec3, v: &Vec3, stiffness: f64, rest: f64) -> TurnStiffness {
+    if rest != 0.0 {
+        return turn_square(u, v, stiffness);
+    }
     let pair = Pair::new(u, v);
     let (by_u, by_v) = pair.cosine_slopes();
     let (first, second) = pair.law_slopes(rest);
-    let mut blocks = if rest == 0.0 {
-        // 1 − cos θ = ½|û − v̂|², and what is kept is the square of the derivative of û − v̂.
-        let (across_u, across_v) = (across(&pair.unit_u), across(&pair.unit_v));
-        let spread = -first * stiffness;
-        TurnStiffness {
-            uu: across_u * (spread / (pair.length_u * pair.length_u)),
-            uv: across_u * across_v * (-spread / (pair.length_u * pair.length_v)),
-            vv: across_v * (spread / (pair.length_v * pair.length_v)),
-        }
-    } else {
-        TurnStiffness {
-            uu: Mat3::zeros(),
-            uv: Mat3::zeros(),
-            vv: Mat3::zeros(),
-        }
-    };
-    let sine = pair.sine.max(LEAST_SINE);
-    let kept = stiffness
-        * if rest == 0.0 {
-            second
-        } else {
-            1.0 / (sine * sine)
-        };
-    blocks.uu += by_u * by_u.transpose() * kept;
-    blocks.uv += by_u * by_v.transpose() * kept;
-    blocks.vv += by_v * by_v.transpose() * kept;
-    blocks
+    // 1 − cos θ = ½|û − v̂|², and what is kept is the square of the derivative of û − v̂.
+    let (across_u, across_v) = (across(&pair.unit_u), across(&pair.unit_v));
+    let (spread_u, spread_v) = (1.0 / pair.length_u, 1.0 / pair.length_v);
+    let spread = -first * stiffness;
+    let (kept_u, kept_v) = (by_u * (stiffness * second), by_v * (stiffness * second));
+    TurnStiffness {
+        uu: across_u * (spread * spread_u * spread_u) + by_u * kept_u.transpose(),
+        uv: across_u * across_v * (-spread * spread_u * spread_v) + by_u * kept_v.transpose(),
+        vv: across_v * (spread * spread_v * spread_v) + by_v * kept_v.transpose(),
+    }
+}
+
+/// The stiffness times the square of the angle's derivative.
+fn turn_square(u: &Vec3, v: &Vec3, stiffness: f64) -> TurnStiffness {
+    let (over_u, over_v) = (1.0 / u.norm().max(1e-12), 1.0 / v.norm().max(1e-12));
+    let (unit_u, unit_v) = (u * over_u, v * over_v);
+    let cosine = unit_u.dot(&unit_v);
+    let square = unit_u.cross(&unit_v).norm_squared();
+    let kept = stiffness / square.max(LEAST_SINE * LEAST_SINE);
+    let by_u = (unit_v - unit_u * cosine) * over_u;
+    let by_v = (unit_u - unit_v * cosine) * over_v;
+    let (kept_u, kept_v) = (by_u * kept, by_v * kept);
+    TurnStiffness {
+        uu: by_u * kept_u.transpose(),
+        uv: by_u * kept_v.transpose(),
+        vv: by_v * kept_v.transpose(),
+    }
 }
 
 /// The projection across a unit vector.

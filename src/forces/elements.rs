@@ -1,10 +1,10 @@
 //! What a sheet is made of, by the numbers of its nodes: rods, angles between rods, twists, vices.
 
-use super::{Clamp, Stencil};
+use super::{Clamp, Stencil, angle::TurnStiffness};
 use crate::{
     fabric::{Fabric, Yarn},
     lattice::{Bend, Corner, Rod, Twist},
-    math::Vec3,
+    math::{Mat3, Vec3},
 };
 
 /// A rod by the numbers of its ends.
@@ -107,6 +107,36 @@ impl SheetAngle {
 
     pub(super) fn spread(&self, by_u: &Vec3, by_v: &Vec3) -> [Vec3; 3] {
         self.signs().map(|(u, v)| by_u * u + by_v * v)
+    }
+
+    /// Hands the blocks between its nodes to `add(row, column, block)`, each pair once.
+    pub(super) fn spread_stiffness(
+        &self,
+        by_rods: &TurnStiffness,
+        add: &mut dyn FnMut(u32, u32, &Mat3),
+    ) {
+        let TurnStiffness { uu, uv, vv } = by_rods;
+        let [a, b, c] = self.nodes;
+        if self.bend {
+            // u = b − a, v = c − b.
+            let first = uv - uu;
+            let last = uv - vv;
+            add(a, a, uu);
+            add(a, b, &first);
+            add(a, c, &-uv);
+            add(b, b, &-(first + last.transpose()));
+            add(b, c, &last);
+        } else {
+            // u = b − a, v = c − a.
+            let first = -(uu + uv.transpose());
+            let last = -(uv + vv);
+            add(a, a, &-(first + last));
+            add(a, b, &first);
+            add(a, c, &last);
+            add(b, b, uu);
+            add(b, c, uv);
+        }
+        add(c, c, vv);
     }
 
     /// Adds the angle to a node's stencil; `ways` lead from the node to the angle's nodes.

@@ -236,39 +236,29 @@ impl<'a> Sheet<'a> {
     /// diagonal blocks, and each pair of an element's nodes once. With `positive`, every element's
     /// negative directions are left out.
     pub fn stiffness(&self, at: &[Vec3], positive: bool, add: &mut dyn FnMut(u32, u32, &Mat3)) {
-        let blocks = threads::map(self.rods.len(), |k| {
+        let rod = |k: usize| {
             let rod = &self.rods[k];
             self.law(rod).stiffness(&rod.along(at), positive)
-        });
-        for (rod, block) in self.rods.iter().zip(blocks) {
-            let [a, b] = rod.nodes;
+        };
+        threads::in_turn(self.rods.len(), rod, |k, block| {
+            let [a, b] = self.rods[k].nodes;
             add(a, a, &block);
             add(b, b, &block);
             add(a, b, &-block);
-        }
+        });
         let blocks_of = if positive {
             turn_stiffness_positive
         } else {
             turn_stiffness
         };
-        let blocks = threads::map(self.angles.len(), |k| {
+        let angle = |k: usize| {
             let angle = &self.angles[k];
             let (u, v) = angle.rods(at);
             blocks_of(&u, &v, angle.stiffness, angle.rest)
+        };
+        threads::in_turn(self.angles.len(), angle, |k, blocks| {
+            self.angles[k].spread_stiffness(&blocks, add);
         });
-        for (angle, blocks) in self.angles.iter().zip(blocks) {
-            let signs = angle.signs();
-            for (k, &row) in angle.nodes.iter().enumerate() {
-                for (l, &column) in angle.nodes.iter().enumerate().skip(k) {
-                    let ((ku, kv), (lu, lv)) = (signs[k], signs[l]);
-                    let block = blocks.uu * (ku * lu)
-                        + blocks.uv * (ku * lv)
-                        + blocks.uv.transpose() * (kv * lu)
-                        + blocks.vv * (kv * lv);
-                    add(row, column, &block);
-                }
-            }
-        }
         self.twist_blocks(at, positive, add);
         for clamp in &self.clamps {
             let block = blocks_of(&clamp.slope, &clamp.along(at), clamp.stiffness, 0.0).vv;

@@ -42,7 +42,8 @@ pub(super) struct Factor {
 
 #[derive(Debug)]
 pub(super) struct Factored {
-    /// Columns of L of the front's own nodes, over all its nodes (column-major).
+    /// Columns of L of the front's own nodes, over all its nodes (column-major); and after them, until
+    /// the part above has taken it, what is left of the border.
     pub(super) columns: Vec<f64>,
     pub(super) halves: Vec<Self>,
 }
@@ -121,7 +122,7 @@ fn place(node: u32, all: &[u32], rank: &[u32]) -> u32 {
 impl Factor {
     /// Factors a stiffness; `None` where it is not positive definite.
     pub(super) fn new(plan: &Plan, stiffness: &Stiffness) -> Option<Self> {
-        let (root, _) = factor(&plan.root, stiffness, &plan.rank)?;
+        let root = factor(&plan.root, stiffness, &plan.rank)?;
         Some(Self { root })
     }
 
@@ -131,40 +132,35 @@ impl Factor {
     }
 }
 
-/// Factors one front; returns its columns and what it leaves for the part above.
-fn factor(front: &Front, stiffness: &Stiffness, rank: &[u32]) -> Option<(Factored, Vec<f64>)> {
+/// Factors one front, and leaves the Schur complement of its border for the part above.
+fn factor(front: &Front, stiffness: &Stiffness, rank: &[u32]) -> Option<Factored> {
     let mut halves = factor_halves(&front.halves, stiffness, rank)?;
     let order = 3 * front.nodes.len();
     let own = 3 * front.own;
     let mut matrix = vec![0.0; order * order];
     assemble(front, stiffness, rank, &mut matrix);
-    for ((_, places), (_, rest)) in front.halves.iter().zip(&mut halves) {
-        extend_add(&mut matrix, order, rest, places);
-        *rest = Vec::new();
+    for ((half, places), factored) in front.halves.iter().zip(&mut halves) {
+        let (order_below, own_below) = (3 * half.nodes.len(), 3 * half.own);
+        let rest = Rest {
+            matrix: &factored.columns,
+            order: order_below,
+            own: own_below,
+        };
+        rest.add_to(&mut matrix, order, places);
+        factored.columns.truncate(order_below * own_below);
+        factored.columns.shrink_to_fit();
     }
-    if !dense::factor(&mut matrix, order, own) {
-        return None;
-    }
-    let rest = border_of(&matrix, order, own);
-    matrix.truncate(order * own);
-    matrix.shrink_to_fit();
-    let halves = halves.into_iter().map(|(factored, _)| factored).collect();
-    Some((
-        Factored {
-            columns: matrix,
-            halves,
-        },
-        rest,
-    ))
+    dense::factor(&mut matrix, order, own).then_some(Factored {
+        columns: matrix,
+        halves,
+    })
 }
-
-type Halves = Vec<(Factored, Vec<f64>)>;
 
 fn factor_halves(
     halves: &[(Front, Vec<u32>)],
     stiffness: &Stiffness,
     rank: &[u32],
-) -> Option<Halves> {
+) -> Option<Vec<Factored>> {
     if let [(one, _), (other, _)] = halves {
         let (one, other) = threads::both(
             || factor(one, stiffness, rank),
@@ -198,33 +194,38 @@ fn assemble(front: &Front, stiffness: &Stiffness, rank: &[u32], matrix: &mut [f6
     }
 }
 
-/// Adds what a half left over.
-fn extend_add(matrix: &mut [f64], order: usize, rest: &[f64], places: &[u32]) {
-    let size = 3 * places.len();
-    for (j, column) in rest.chunks_exact(size.max(1)).enumerate() {
-        let target = (3 * places[j / 3] as usize + j % 3) * order;
-        for (place, three) in places.iter().zip(column.chunks_exact(3)).skip(j / 3) {
-            let at = target + 3 * *place as usize;
-            for (entry, value) in matrix[at..at + 3].iter_mut().zip(three) {
-                *entry += value;
+/// What a half leaves over: the Schur complement of its border, behind its own columns.
+struct Rest<'a> {
+    matrix: &'a [f64],
+    order: usize,
+    own: usize,
+}
+
+impl Rest<'_> {
+    /// Adds it to the matrix of the front above, in which its nodes have these places.
+    fn add_to(&self, matrix: &mut [f64], order: usize, places: &[u32]) {
+        // A front without nodes parts halves that share no force.
+        let columns = self.matrix[self.own * self.order..].chunks_exact(self.order.max(1));
+        for (j, column) in columns.enumerate() {
+            let target = (3 * places[j / 3] as usize + j % 3) * order;
+            let threes = column[self.own..].chunks_exact(3);
+            for (place, three) in places.iter().zip(threes).skip(j / 3) {
+                let at = target + 3 * *place as usize;
+                for (entry, value) in matrix[at..at + 3].iter_mut().zip(three) {
+                    *entry += value;
+                }
             }
         }
     }
 }
 
-/// The Schur complement of the border.
-fn border_of(matrix: &[f64], order: usize, own: usize) -> Vec<f64> {
-    // A front without nodes parts halves that share no force.
-    let columns = matrix[own * order..].chunks_exact(order.max(1));
-    columns
-        .flat_map(|column| column[own..].iter().copied())
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::{
-        super::{dissection::dissect, stiffness::Pattern},
+        super::{
+            dissection::dissect,
+            stiffness::{Pattern, Sum},
+        },
         *,
     };
     use crate::math::{Mat3, Vec2};
@@ -319,11 +320,11 @@ mod tests {
         fn factor(&self) -> Option<Factor> {
             let held: Vec<bool> = (0..self.nodes).map(|node| self.is_held(node)).collect();
             let pattern = Pattern::new(&self.neighbours, &held);
-            let mut stiffness = Stiffness::new(pattern.into());
+            let mut stiffness = Sum::new(pattern.into());
             for (row, column, block) in &self.blocks {
                 stiffness.add(*row, *column, block);
             }
-            Factor::new(&self.plan, &stiffness)
+            Factor::new(&self.plan, &stiffness.whole())
         }
 
         /// The moves that answer forces.

@@ -138,7 +138,7 @@ impl<'a> Run<'_> {
 
     /// Brings a level that was disturbed nearer to rest.
     fn ease(&mut self, level: &mut Level<'_>, joint: &mut Joint) {
-        let standing = Standing::new(level);
+        let standing = Standing::new(level, 0);
         if level.own_only {
             let pitch = level.lattice.pitch;
             level.look(pitch, pitch);
@@ -146,11 +146,11 @@ impl<'a> Run<'_> {
                 level.sweep();
                 level.touches.look_at_loads(&level.at);
             }
-            self.goes_on(level, 0, &standing);
+            self.goes_on(level, &standing);
             return;
         }
         let mut inertia = Inertia::none(level);
-        self.glide(level, joint, &mut inertia, 0, &standing, CARRYING);
+        self.glide(level, joint, &mut inertia, &standing, CARRYING);
     }
 }
 

@@ -8,7 +8,7 @@
 
 use super::{
     joint::Joint,
-    leader::Leader,
+    leader::Guide,
     level::Level,
     model::longest,
     rest::{Run, Standing},
@@ -30,10 +30,12 @@ const FREED: f64 = 0.8;
 const LEAST_DAMPING: f64 = 0.02;
 /// No node is in haste when none asks for more than this part of the longest move.
 const CALM: f64 = 0.2;
-/// Touches farther away than so many moves of the last step are not felt in the next; those that are
-/// felt are found for three times as far.
-const AWAKE: f64 = 2.0;
-const AWAKE_LATER: f64 = 3.0;
+/// Touches are felt as far away as so many last steps of their nodes go, and the longest of all: felt
+/// too late, they would throw the cloth back. They are found as far as so many ways since the last look
+/// and this part of what the fastest could go.
+const AWAKE: f64 = 3.0;
+const SEEN: f64 = 2.0;
+const SEEN_ANYWHERE: f64 = 0.5;
 /// A stop after more steps than this, with no node in haste, is one near rest.
 const LONG_RUN: usize = 30;
 
@@ -47,8 +49,8 @@ pub(super) struct Inertia {
     /// Longest ways of a step, since the last look and of the last step [cm].
     fastest: f64,
     pub(super) last: f64,
-    /// How far nodes may still go before other touches could be felt [cm].
-    clear: f64,
+    /// Positions at the last look [cm].
+    seen: Vec<Vec3>,
 }
 
 impl Inertia {
@@ -59,7 +61,16 @@ impl Inertia {
             run: 0,
             fastest: level.lattice.pitch,
             last: level.lattice.pitch,
-            clear: 0.0,
+            seen: level.at.clone(),
+        }
+    }
+
+    /// Of a cloth that has just leapt so far [cm].
+    pub(super) fn after(level: &Level<'_>, way: f64) -> Self {
+        Self {
+            fastest: way,
+            last: way,
+            ..Self::none(level)
         }
     }
 
@@ -74,15 +85,32 @@ impl Inertia {
         self.before.clone_from(&to);
         self.run = 0;
         level.at = to;
-        self.clear = 0.0;
     }
 
-    /// Wakes the touches that could be felt by moves of `way` [cm], unless they are awake.
-    fn wake(&mut self, level: &mut Level<'_>, way: f64) {
-        if self.clear < way {
-            self.clear = AWAKE_LATER * way;
-            level.touches.wake(&level.at, self.clear);
-        }
+    /// Wakes the touches that could be felt in a step, and measures what is clear for it, by how far each
+    /// node went in the last one.
+    fn wake(&self, level: &mut Level<'_>) {
+        let (before, at) = (&self.before, &level.at);
+        let way = |node: usize| AWAKE * (at[node] - before[node]).norm() + self.last;
+        let ways: Vec<f64> = threads::map(at.len(), way);
+        level.touches.wake(&level.at, |node| ways[node]);
+        level
+            .touches
+            .measure(&level.at, level.bodies, |node| ways[node]);
+    }
+
+    /// Looks about for as long as the next steps may go, by how the nodes went since the last look.
+    fn look(&mut self, level: &mut Level<'_>) {
+        let pitch = level.lattice.pitch;
+        let any = (LOOKED_EVERY as f64 * self.fastest).clamp(0.005 * pitch, 0.8 * pitch);
+        let way = |node: usize| {
+            let gone = (level.at[node] - self.seen[node]).norm();
+            (SEEN * gone + SEEN_ANYWHERE * any).min(2.0 * any)
+        };
+        let ways: Vec<f64> = threads::map(level.at.len(), way);
+        level.look_about(&ways);
+        self.seen.clone_from(&level.at);
+        self.fastest = 0.0;
     }
 }
 
@@ -96,31 +124,26 @@ impl Run<'_> {
         level: &mut Level<'_>,
         joint: &mut Joint,
         inertia: &mut Inertia,
-        number: usize,
         standing: &Standing,
         most: usize,
     ) {
         let pitch = level.lattice.pitch;
         let cap = LONGEST_MOVE * pitch;
         let mut energy = f64::INFINITY;
-        let mut leader = None;
+        let mut guide = None;
         for step in 0..most {
             if step % LOOKED_EVERY == 0 {
-                if !self.goes_on(level, number, standing) {
+                if !self.goes_on(level, standing) {
                     return;
                 }
-                let way =
-                    (2.0 * LOOKED_EVERY as f64 * inertia.fastest).clamp(0.005 * pitch, 0.8 * pitch);
-                level.look(way, way);
+                inertia.look(level);
                 energy = f64::INFINITY;
-                inertia.clear = 0.0;
-                inertia.fastest = 0.0;
-                leader = None;
+                guide = None;
             }
-            if leader.is_none() {
-                leader = joint.leader(level);
+            if guide.is_none() {
+                guide = joint.guide(level);
             }
-            let Some(leads) = &leader else { return };
+            let Some(leads) = &guide else { return };
             let stride = level.stride(leads, inertia, cap);
             inertia.fastest = f64::max(inertia.fastest, stride.made);
             inertia.last = stride.made;
@@ -134,7 +157,7 @@ impl Run<'_> {
             if now > energy + 1e-12 * energy.abs().max(1.0) {
                 if inertia.run == 0 {
                     joint.damp_all(pitch);
-                    leader = None;
+                    guide = None;
                 }
                 inertia.go_back(level, stride.from);
                 continue;
@@ -142,7 +165,7 @@ impl Run<'_> {
             energy = if calm { f64::INFINITY } else { now };
             inertia.before = stride.from;
             if joint.damp(&stride.asked, cap, TOO_FAR) {
-                leader = None;
+                guide = None;
             }
             joint.free(&stride.asked, cap, FREED, LEAST_DAMPING);
             let at_turn = stride.climbs && inertia.run > LONG_RUN && calm;
@@ -168,9 +191,10 @@ struct Stride {
 
 impl Level<'_> {
     /// One step with inertia, no node led farther than `cap` [cm].
-    fn stride(&mut self, leader: &Leader, inertia: &mut Inertia, cap: f64) -> Stride {
+    fn stride(&mut self, guide: &Guide, inertia: &mut Inertia, cap: f64) -> Stride {
         let from = self.at.clone();
         let run = inertia.run as f64;
+        inertia.wake(self);
         if inertia.run > 0 {
             self.at = self.freely(|node| {
                 // Friction takes up what goes on by itself.
@@ -182,18 +206,14 @@ impl Level<'_> {
                 (from[node] - inertia.before[node]) * part
             });
         }
-        inertia.wake(self, AWAKE * inertia.last);
         let begun = self.at.clone();
-        let asked = leader.answer_smoothly(&self.quick_forces());
+        let asked = guide.answer(&self.quick_forces());
         self.at = self.freely(|node| {
             let way = asked[node] * PART;
             way * (cap / way.norm().max(cap))
         });
         self.sweep();
         let (made, climbs) = judge(&from, &begun, &self.at);
-        // What was gone inertly before the touches were woken counts as well, to be safe.
-        inertia.clear -= made;
-        inertia.wake(self, 0.0);
         Stride {
             from,
             asked,

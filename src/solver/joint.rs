@@ -13,11 +13,11 @@
 
 use super::{
     factor::Plan,
-    leader::{Leader, Way, plan_of},
+    leader::{Guide, Leader, Way, plan_of},
     level::Level,
     model::{Answer, exact_answer, longest, near_answer, way_out},
     packed::{Layout, Packed},
-    stiffness::{Pattern, Stiffness},
+    stiffness::{Pattern, Stiffness, Sum},
 };
 use crate::math::{Mat3, Vec3};
 use std::{cell::OnceCell, sync::Arc};
@@ -123,7 +123,7 @@ impl Joint {
 
     /// The derivative at the level's positions, exact or without its negative directions.
     fn assembled(&self, level: &Level<'_>, positive: bool) -> Stiffness {
-        let mut matrix = Stiffness::new(Arc::clone(&self.pattern));
+        let mut matrix = Sum::new(Arc::clone(&self.pattern));
         let at = &level.at;
         level
             .sheet
@@ -139,15 +139,15 @@ impl Joint {
                 matrix.add(node as u32, node as u32, &block);
             }
         }
-        matrix
+        matrix.whole()
     }
 
     /// The same with the nodes' damping.
     fn damped(&self, level: &Level<'_>, positive: bool) -> Stiffness {
         let mut matrix = self.assembled(level, positive);
         let weights = level.sheet.measures().iter().zip(&self.damping);
-        for (node, (weight, damping)) in (0..).zip(weights) {
-            matrix.add(node, node, &(Mat3::identity() * (weight * damping)));
+        for (node, (weight, damping)) in weights.enumerate() {
+            matrix.add_own(node, &(Mat3::identity() * (weight * damping)));
         }
         matrix
     }
@@ -159,10 +159,23 @@ impl Joint {
     /// What leads: the damped positive matrix. Where rounding makes it indefinite, as crushed rods
     /// may, all nodes are damped more; `None` where nothing helps.
     pub(super) fn leader(&mut self, level: &Level<'_>) -> Option<Leader> {
+        self.positive(level, Leader::new)
+    }
+
+    /// What leads steps with inertia, of the same matrix.
+    pub(super) fn guide(&mut self, level: &Level<'_>) -> Option<Guide> {
+        self.positive(level, |way, matrix| Guide::new(way, &matrix))
+    }
+
+    fn positive<T>(
+        &mut self,
+        level: &Level<'_>,
+        lead: impl Fn(&Way, Stiffness) -> Option<T>,
+    ) -> Option<T> {
         for _ in 0..DAMPED_MORE {
-            let leader = Leader::new(&self.way, self.damped(level, true));
-            if leader.is_some() {
-                return leader;
+            let found = lead(&self.way, self.damped(level, true));
+            if found.is_some() {
+                return found;
             }
             for damping in &mut self.damping {
                 *damping = 10.0 * damping.max(1e-3 / level.lattice.pitch);
@@ -203,6 +216,25 @@ impl Joint {
             exact,
             free: exact,
         })
+    }
+
+    /// What the exact stiffness asks for [cm], or a way downhill, followed no farther than `far` [cm];
+    /// `None` where it is not known.
+    pub(super) fn wish(&mut self, level: &mut Level<'_>, far: f64) -> Option<Vec<Vec3>> {
+        level.joint_steps += 1;
+        let exact = self.assembled(level, false);
+        let forces = level.forces(&level.at);
+        let moves = match self.factored(level, &exact) {
+            Some(factored) => factored.answer(&forces),
+            None => {
+                let leader = self.leader(level)?;
+                match exact_answer(&leader, &self.packed(&exact), &forces, far, true) {
+                    Answer::Moves(moves) | Answer::Downhill(moves) => moves,
+                    Answer::Unclear => return None,
+                }
+            }
+        };
+        longest(&moves).is_finite().then_some(moves)
     }
 
     /// What the exact stiffness answers to forces [gf], and what leads there.

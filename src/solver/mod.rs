@@ -10,6 +10,7 @@ mod follow;
 mod inertia;
 mod joint;
 mod leader;
+mod leap;
 mod level;
 mod model;
 mod moving;

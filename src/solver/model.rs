@@ -175,7 +175,7 @@ mod tests {
             factor::Plan,
             leader::Way,
             packed::Layout,
-            stiffness::{Pattern, Stiffness},
+            stiffness::{Pattern, Stiffness, Sum},
         },
         *,
     };
@@ -192,7 +192,7 @@ mod tests {
         let places: Vec<Vec2> = (0..NODES).map(|k| Vec2::new(f64::from(k), 0.0)).collect();
         let parts = dissect((0..NODES).collect(), &places, &neighbours);
         let plan = Plan::new(parts, &neighbours, NODES as usize);
-        let mut matrix = Stiffness::new(pattern);
+        let mut matrix = Sum::new(pattern);
         let spring = Mat3::new(2.0, 0.5, 0.0, 0.5, 1.0, 0.0, 0.0, 0.0, 3.0);
         for [a, b] in pairs {
             matrix.add(a, a, &spring);
@@ -202,7 +202,7 @@ mod tests {
         for node in 0..NODES {
             matrix.add(node, node, &(Mat3::identity() * ground));
         }
-        (Way::Factors(Arc::new(plan)), matrix)
+        (Way::Factors(Arc::new(plan)), matrix.whole())
     }
 
     fn packed(matrix: &Stiffness) -> Packed<f64> {

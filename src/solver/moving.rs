@@ -297,14 +297,14 @@ impl Journey<'_, '_> {
         };
         let tolerance = self.run.settings.tolerance;
         let enough = (ENOUGH * tolerance * GRAVITY * step * step).max(ROUNDING);
-        let standing = Standing::new(&self.level);
+        let standing = Standing::new(&self.level, 0);
         let mut made = self.level.lattice.pitch;
         let mut asked = f64::INFINITY;
         let mut remaining = f64::INFINITY;
         // Joint steps in a row that asked for too little to matter.
         let mut short = 0;
         for round in 0..ROUNDS {
-            if !self.run.goes_on(&self.level, 0, &standing) {
+            if !self.run.goes_on(&self.level, &standing) {
                 remaining = f64::INFINITY;
                 break;
             }

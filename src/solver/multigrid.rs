@@ -204,56 +204,31 @@ fn colours(pattern: &Pattern) -> Vec<Vec<u32>> {
     colours
 }
 
-/// A positive matrix on all levels.
+/// A positive matrix on one level: single precision is enough to lead by.
 #[derive(Debug)]
-pub(super) struct Multigrid {
-    /// Of all levels but the coarsest: single precision is enough to lead by.
-    matrices: Vec<Packed<f32>>,
-    /// Inverse of each node's own block, by levels [cm/gf].
-    inverses: Vec<Inverses<f32>>,
-    coarsest: Factor,
+struct Visits {
+    matrix: Packed<f32>,
+    /// Inverse of each node's own block [cm/gf].
+    inverses: Inverses<f32>,
 }
 
-impl Multigrid {
+impl Visits {
     /// Of a matrix; `None` where it is not positive definite.
-    pub(super) fn new(levels: &Levels, matrix: Stiffness) -> Option<Self> {
-        let mut coarsest = matrix;
-        let mut matrices = Vec::new();
-        let mut inverses = Vec::new();
-        for step in &levels.steps {
-            inverses.push(Inverses::new(&step.layout, &coarsest)?);
-            matrices.push(Packed::new(&step.layout, &coarsest));
-            coarsest = summed_up(step, &coarsest);
-        }
-        let coarsest = Factor::new(&levels.coarsest, &coarsest)?;
+    fn new(step: &Step, matrix: &Stiffness) -> Option<Self> {
         Some(Self {
-            matrices,
-            inverses,
-            coarsest,
+            inverses: Inverses::new(&step.layout, matrix)?,
+            matrix: Packed::new(&step.layout, matrix),
         })
     }
 
-    /// About the moves [cm] that answer forces [gf]; held nodes stay.
-    pub(super) fn answer(&self, levels: &Levels, forces: &[Vec3]) -> Vec<Vec3> {
-        self.answer_at(levels, 0, forces)
-    }
-
-    /// The smooth part of the answer alone, from the first coarser level on.
-    pub(super) fn answer_smoothly(&self, levels: &Levels, forces: &[Vec3]) -> Vec<Vec3> {
-        match levels.steps.first() {
-            None => self.answer(levels, forces),
-            Some(step) => {
-                let coarse = self.answer_at(levels, 1, &step.children.sum(forces));
-                step.parents.sum(&coarse)
-            }
-        }
-    }
-
-    fn answer_at(&self, levels: &Levels, number: usize, forces: &[Vec3]) -> Vec<Vec3> {
-        let Some(step) = levels.steps.get(number) else {
-            return self.coarsest.solve(&levels.coarsest, forces);
-        };
-        let (matrix, inverses) = (&self.matrices[number], &self.inverses[number]);
+    /// Visits the nodes, has what is left answered by `below`, and visits them in the opposite order.
+    fn answer(
+        &self,
+        step: &Step,
+        forces: &[Vec3],
+        below: impl FnOnce(&[Vec3]) -> Vec<Vec3>,
+    ) -> Vec<Vec3> {
+        let Self { matrix, inverses } = self;
         let mut moves = vec![Vec3::zeros(); forces.len()];
         for colour in 0..matrix.groups() {
             matrix.visit(colour, inverses, forces, &mut moves);
@@ -262,7 +237,7 @@ impl Multigrid {
         for (left, force) in left.iter_mut().zip(forces) {
             *left = force - *left;
         }
-        let coarse = self.answer_at(levels, number + 1, &step.children.sum(&left));
+        let coarse = below(&step.children.sum(&left));
         for (way, more) in moves.iter_mut().zip(step.parents.sum(&coarse)) {
             *way += more;
         }
@@ -270,6 +245,79 @@ impl Multigrid {
             matrix.visit(colour, inverses, forces, &mut moves);
         }
         moves
+    }
+}
+
+/// A positive matrix summed up on the coarser levels.
+#[derive(Debug)]
+pub(super) struct Coarser {
+    visits: Vec<Visits>,
+    coarsest: Factor,
+}
+
+impl Coarser {
+    /// Of a matrix of the finest level; `None` where it is not positive definite there.
+    pub(super) fn new(levels: &Levels, finest: &Stiffness) -> Option<Self> {
+        let mut visits = Vec::new();
+        let mut coarser: Option<Stiffness> = None;
+        for (number, step) in levels.steps.iter().enumerate() {
+            let matrix = coarser.as_ref().unwrap_or(finest);
+            if number > 0 {
+                visits.push(Visits::new(step, matrix)?);
+            }
+            coarser = Some(summed_up(step, matrix));
+        }
+        let coarsest = Factor::new(&levels.coarsest, coarser.as_ref().unwrap_or(finest))?;
+        Some(Self { visits, coarsest })
+    }
+
+    /// What there is of the answer [cm] to forces [gf] on the finest level that is smooth.
+    pub(super) fn answer(&self, levels: &Levels, forces: &[Vec3]) -> Vec<Vec3> {
+        match levels.steps.first() {
+            None => self.answer_at(levels, 1, forces),
+            Some(step) => {
+                let coarse = self.answer_at(levels, 1, &step.children.sum(forces));
+                step.parents.sum(&coarse)
+            }
+        }
+    }
+
+    fn answer_at(&self, levels: &Levels, number: usize, forces: &[Vec3]) -> Vec<Vec3> {
+        match self.visits.get(number - 1) {
+            None => self.coarsest.solve(&levels.coarsest, forces),
+            Some(visits) => visits.answer(&levels.steps[number], forces, |left| {
+                self.answer_at(levels, number + 1, left)
+            }),
+        }
+    }
+}
+
+/// A positive matrix on all levels.
+#[derive(Debug)]
+pub(super) struct Multigrid {
+    /// On the finest level, where there is a coarser one.
+    finest: Option<Visits>,
+    coarser: Coarser,
+}
+
+impl Multigrid {
+    /// Of a matrix; `None` where it is not positive definite.
+    pub(super) fn new(levels: &Levels, matrix: &Stiffness) -> Option<Self> {
+        let finest = match levels.steps.first() {
+            None => None,
+            Some(step) => Some(Visits::new(step, matrix)?),
+        };
+        let coarser = Coarser::new(levels, matrix)?;
+        Some(Self { finest, coarser })
+    }
+
+    /// About the moves [cm] that answer forces [gf]; held nodes stay.
+    pub(super) fn answer(&self, levels: &Levels, forces: &[Vec3]) -> Vec<Vec3> {
+        let below = |forces: &[Vec3]| self.coarser.answer_at(levels, 1, forces);
+        match levels.steps.first().zip(self.finest.as_ref()) {
+            None => below(forces),
+            Some((step, visits)) => visits.answer(step, forces, below),
+        }
     }
 }
 
@@ -292,7 +340,7 @@ fn summed_up(step: &Step, finer: &Stiffness) -> Stiffness {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::stiffness::Sum, *};
     use crate::math::Mat3;
 
     /// A sheet of nodes that are drawn to their four neighbours as `springs` say along x and y, and
@@ -314,7 +362,7 @@ mod tests {
         let held: Vec<bool> = grid.iter().map(|at| at[1] == 0 && at[0] % 7 == 0).collect();
         let pattern = Arc::new(Pattern::new(&Neighbours::new(grid.len(), &both), &held));
         let levels = Levels::new(&grid, &pattern);
-        let mut matrix = Stiffness::new(pattern);
+        let mut matrix = Sum::new(pattern);
         for (axis, [a, b]) in pairs {
             let spring = &springs[axis];
             matrix.add(a, a, spring);
@@ -324,7 +372,7 @@ mod tests {
         for node in 0..grid.len() as u32 {
             matrix.add(node, node, &(Mat3::identity() * 1e-4));
         }
-        (levels, matrix)
+        (levels, matrix.whole())
     }
 
     /// Some numbers for every free node.
@@ -344,7 +392,7 @@ mod tests {
 
     /// The greatest part of an error, in energy, that one answer leaves, by the power method.
     fn left_over(levels: &Levels, matrix: &Stiffness) -> f64 {
-        let multigrid = Multigrid::new(levels, matrix.clone()).unwrap();
+        let multigrid = Multigrid::new(levels, matrix).unwrap();
         let mut error = numbers(matrix, 0.3);
         let mut part = 0.0;
         for _ in 0..30 {
@@ -378,7 +426,7 @@ mod tests {
             Mat3::from_diagonal(&Vec3::from_fn(|k, _| if k == axis { 1e4 } else { 1.0 }))
         };
         let (levels, matrix) = sheet(50, [stiff(0), stiff(1)]);
-        let multigrid = Multigrid::new(&levels, matrix.clone()).unwrap();
+        let multigrid = Multigrid::new(&levels, &matrix).unwrap();
         let (x, y) = (numbers(&matrix, 0.1), numbers(&matrix, 0.7));
         let (of_x, of_y) = (multigrid.answer(&levels, &x), multigrid.answer(&levels, &y));
         let (one, other) = (dot(&x, &of_y), dot(&y, &of_x));
@@ -392,7 +440,7 @@ mod tests {
     #[test]
     fn a_small_sheet_is_answered_exactly() {
         let (levels, matrix) = sheet(14, [Mat3::identity(); 2]);
-        let multigrid = Multigrid::new(&levels, matrix.clone()).unwrap();
+        let multigrid = Multigrid::new(&levels, &matrix).unwrap();
         let moves = numbers(&matrix, 0.4);
         let answer = multigrid.answer(&levels, &matrix.times(&moves));
         for (found, expected) in answer.iter().zip(&moves) {
@@ -403,11 +451,11 @@ mod tests {
     #[test]
     fn a_matrix_that_is_not_positive_has_no_answer() {
         let (levels, mut matrix) = sheet(40, [Mat3::identity(); 2]);
-        assert!(Multigrid::new(&levels, matrix.clone()).is_some());
-        matrix.add(5, 5, &(Mat3::identity() * -1e3));
-        assert!(Multigrid::new(&levels, matrix.clone()).is_none());
-        matrix.add(5, 5, &Mat3::repeat(f64::NAN));
-        assert!(Multigrid::new(&levels, matrix.clone()).is_none());
+        assert!(Multigrid::new(&levels, &matrix).is_some());
+        matrix.add_own(5, &(Mat3::identity() * -1e3));
+        assert!(Multigrid::new(&levels, &matrix).is_none());
+        matrix.add_own(5, &Mat3::repeat(f64::NAN));
+        assert!(Multigrid::new(&levels, &matrix).is_none());
     }
 
     #[cfg(feature = "threads")]
@@ -418,7 +466,7 @@ mod tests {
         let on = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             let answer = || {
-                let multigrid = Multigrid::new(&levels, matrix.clone()).unwrap();
+                let multigrid = Multigrid::new(&levels, &matrix).unwrap();
                 multigrid.answer(&levels, &forces)
             };
             let moves = pool.unwrap().install(answer);

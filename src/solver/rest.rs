@@ -5,6 +5,7 @@ use super::{
     film::Film,
     inertia::Inertia,
     joint::{Joint, Step},
+    leap::{Leaps, Leapt},
     level::Level,
     model::longest,
     start::Start,
@@ -14,8 +15,10 @@ use crate::{
     math::Vec3,
 };
 
-/// Steps with inertia before the first joint step is tried, by how much more each time, and at most.
+/// Steps with inertia before the first joint step is tried, or before the first leap, by how much more
+/// each time, and at most.
 const FIRST_TRY: usize = 60;
+const FIRST_LEAP: usize = 20;
 const LATER_TRIES: f64 = 1.5;
 const RAREST_TRY: f64 = 200.0;
 /// A coarse level is left when a joint step asks for less than this part of its pitch.
@@ -50,6 +53,8 @@ const KICK: f64 = 0.02;
 const STUCK: f64 = 1e-7;
 /// Bold joint steps go on as long as each goes farther than this part of a pitch.
 const WORTHWHILE: f64 = 0.02;
+/// A cloth is to leap where a joint step asks for more than this part of a pitch.
+const FAR: f64 = 0.1;
 /// Sweeps between two looks at the residual where there are no joint steps.
 const PLAIN_SWEEPS: usize = 20;
 /// No estimate of the way to rest is below this [cm]: the laws of contact are looked at anew only
@@ -95,6 +100,8 @@ impl Firmness {
 
 /// How a level stands after a round.
 pub(super) struct Standing {
+    /// Which level, from 0 for the coarsest.
+    number: usize,
     /// Longest move of the last joint step [cm].
     made: f64,
     /// Whether the last round said that rest is near.
@@ -127,12 +134,8 @@ impl Run<'_> {
         }
         let last = number + 1 == self.levels;
         let mut joint = Joint::new(level);
-        let mut standing = Standing::new(level);
-        let mut approach = Approach {
-            inertia: Inertia::none(level),
-            patience: FIRST_TRY as f64,
-            bold: false,
-        };
+        let mut standing = Standing::new(level, number);
+        let mut approach = Approach::of(level, self.lands);
         let lands = number == 0 && self.lands;
         if lands {
             self.carry_holds(level, start, &standing);
@@ -143,13 +146,13 @@ impl Run<'_> {
             level.let_go(case.surface.friction);
         }
         for round in 0.. {
-            if !self.goes_on(level, number, &standing) {
+            if !self.goes_on(level, &standing) {
                 break;
             }
             let step = if lands {
                 joint.land_or_step(level, &standing)
             } else {
-                self.approach(level, &mut joint, &mut approach, &standing, number)
+                self.approach(level, &mut joint, &mut approach, &standing)
             };
             let pitch = level.lattice.pitch;
             standing.count(step.as_ref(), pitch);
@@ -203,28 +206,33 @@ impl Run<'_> {
         standing.remaining
     }
 
-    /// Goes on with inertia while rest is not near, and tries a joint step.
+    /// Goes on with inertia and by leaps while rest is not near, and tries a joint step.
     fn approach(
         &mut self,
         level: &mut Level<'_>,
         joint: &mut Joint,
         approach: &mut Approach,
         standing: &Standing,
-        number: usize,
     ) -> Option<Step> {
         let Approach {
             inertia,
             patience,
+            leaps,
             bold,
         } = approach;
+        let pitch = level.lattice.pitch;
         if !standing.near && !*bold {
-            self.glide(level, joint, inertia, number, standing, *patience as usize);
+            self.glide(level, joint, inertia, standing, *patience as usize);
             *patience = (*patience * LATER_TRIES).min(RAREST_TRY);
+            if self.leap(level, joint, leaps, FAR * pitch, standing) == Leapt::On {
+                inertia.stop(level);
+                return None;
+            }
         }
-        let last = number + 1 == self.levels;
+        let last = standing.number + 1 == self.levels;
         *bold = last && (*bold || standing.near || joint.goes_farther_than(inertia.last));
         let step = joint.round(level, standing.made, *bold);
-        *bold &= step.is_some_and(|step| step.made > WORTHWHILE * level.lattice.pitch);
+        *bold &= step.is_some_and(|step| step.made > WORTHWHILE * pitch);
         if step.is_some() {
             inertia.stop(level);
         }
@@ -251,17 +259,13 @@ impl Run<'_> {
                 level.at[*node as usize] += carry / steps as f64;
             }
             let mut inertia = Inertia::none(level);
-            self.glide(level, &mut joint, &mut inertia, 0, standing, CARRYING);
+            self.glide(level, &mut joint, &mut inertia, standing, CARRYING);
         }
     }
 
     /// Asks the watcher, and films.
-    pub(super) fn goes_on(
-        &mut self,
-        level: &Level<'_>,
-        number: usize,
-        standing: &Standing,
-    ) -> bool {
+    pub(super) fn goes_on(&mut self, level: &Level<'_>, standing: &Standing) -> bool {
+        let number = standing.number;
         let progress = Progress {
             level: (number, self.levels),
             nodes: level.at.len(),
@@ -302,10 +306,10 @@ impl Run<'_> {
     fn rest_by_sweeps(&mut self, level: &mut Level<'_>, case: &Case<'_>, number: usize) -> f64 {
         let last = number + 1 == self.levels;
         let pitch = level.lattice.pitch;
-        let mut standing = Standing::new(level);
+        let mut standing = Standing::new(level, number);
         let mut before = f64::INFINITY;
         for round in 0.. {
-            if !self.goes_on(level, number, &standing) {
+            if !self.goes_on(level, &standing) {
                 break;
             }
             level.look(pitch, 0.1);
@@ -334,15 +338,31 @@ impl Run<'_> {
 /// How a cloth that has landed comes near rest.
 struct Approach {
     inertia: Inertia,
-    /// Steps with inertia before the next joint step is tried.
+    /// Steps with inertia before the next leap or joint step is tried.
     patience: f64,
+    /// How far it is trusted to leap.
+    leaps: Leaps,
     /// Whether bold joint steps are what takes it farthest.
     bold: bool,
 }
 
-impl Standing {
-    pub(super) fn new(level: &Level<'_>) -> Self {
+impl Approach {
+    fn of(level: &Level<'_>, lands: bool) -> Self {
+        let leaps = Leaps::of(level, lands);
+        let leaps_first = leaps.some(level.lattice.pitch);
         Self {
+            inertia: Inertia::none(level),
+            patience: if leaps_first { FIRST_LEAP } else { FIRST_TRY } as f64,
+            leaps,
+            bold: false,
+        }
+    }
+}
+
+impl Standing {
+    pub(super) fn new(level: &Level<'_>, number: usize) -> Self {
+        Self {
+            number,
             made: level.lattice.pitch,
             near: false,
             remaining: f64::INFINITY,

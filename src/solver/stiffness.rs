@@ -11,6 +11,10 @@ use std::sync::Arc;
 pub(super) struct Pattern {
     first: Vec<u32>,
     columns: Vec<u32>,
+    /// For each row, the place of its node's own block.
+    own: Vec<u32>,
+    /// For each place before that in a row, the place of the same pair in the other's row.
+    mirror: Vec<u32>,
 }
 
 impl Pattern {
@@ -26,11 +30,41 @@ impl Pattern {
                     .chain([node])
                     .collect();
                 row.sort_unstable();
+                // A cell of three nodes joins one of them with itself.
+                row.dedup();
                 columns.append(&mut row);
             }
             first.push(columns.len() as u32);
         }
-        Self { first, columns }
+        let mut pattern = Self {
+            first,
+            columns,
+            own: Vec::new(),
+            mirror: Vec::new(),
+        };
+        pattern.find_mirrors();
+        pattern
+    }
+
+    fn find_mirrors(&mut self) {
+        let own = |row: usize| {
+            let before = self
+                .row(row)
+                .partition_point(|column| (*column as usize) < row);
+            self.first[row] + before as u32
+        };
+        self.own = (0..self.len()).map(own).collect();
+        // Rows in order meet the places after each node's own block in order.
+        let mut next: Vec<u32> = self.own.iter().map(|own| own + 1).collect();
+        let mut mirror = Vec::new();
+        for row in 0..self.len() {
+            for place in self.first[row]..self.own[row] {
+                let other = self.columns[place as usize] as usize;
+                mirror.push(next[other]);
+                next[other] += 1;
+            }
+        }
+        self.mirror = mirror;
     }
 
     /// Nodes, held ones too.
@@ -59,10 +93,53 @@ impl Pattern {
         self.first[node] as usize..self.first[node + 1] as usize
     }
 
+    /// Where a block on or above the diagonal stands.
     fn place(&self, row: u32, column: u32) -> Option<usize> {
-        let columns = self.row(row as usize);
-        let place = columns.iter().position(|other| *other == column)?;
-        Some(self.first[row as usize] as usize + place)
+        let from = self.own[row as usize] as usize;
+        let later = &self.columns[from..self.first[row as usize + 1] as usize];
+        let place = later.iter().position(|other| *other == column)?;
+        Some(from + place)
+    }
+}
+
+/// A symmetric matrix that is summed up: its blocks on and above the diagonal.
+#[derive(Debug)]
+pub(super) struct Sum(Stiffness);
+
+impl Sum {
+    /// An empty matrix.
+    pub(super) fn new(pattern: Arc<Pattern>) -> Self {
+        Self(Stiffness {
+            blocks: vec![Mat3::zeros(); pattern.columns.len()],
+            pattern,
+        })
+    }
+
+    /// Adds a block at (row, column), and so its transpose at (column, row); held nodes and pairs
+    /// that were not announced are passed over.
+    pub(super) fn add(&mut self, row: u32, column: u32, block: &Mat3) {
+        let Self(matrix) = self;
+        if row <= column {
+            if let Some(place) = matrix.pattern.place(row, column) {
+                matrix.blocks[place] += block;
+            }
+        } else if let Some(place) = matrix.pattern.place(column, row) {
+            matrix.blocks[place] += block.transpose();
+        }
+    }
+
+    /// The whole matrix.
+    pub(super) fn whole(self) -> Stiffness {
+        let Self(mut matrix) = self;
+        let pattern = Arc::clone(&matrix.pattern);
+        let mut mirrors = pattern.mirror.iter();
+        for row in 0..pattern.len() {
+            for place in pattern.first[row]..pattern.own[row] {
+                let Some(other) = mirrors.next() else { break };
+                matrix.blocks[place as usize] = matrix.blocks[*other as usize].transpose();
+            }
+        }
+        matrix
     }
 }
 
@@ -74,14 +151,6 @@ pub(super) struct Stiffness {
 }
 
 impl Stiffness {
-    /// An empty matrix.
-    pub(super) fn new(pattern: Arc<Pattern>) -> Self {
-        Self {
-            blocks: vec![Mat3::zeros(); pattern.columns.len()],
-            pattern,
-        }
-    }
-
     /// A matrix of rows that are found one by one: `fill(row, blocks)` writes those of a row.
     pub(super) fn of_rows(
         pattern: Arc<Pattern>,
@@ -117,16 +186,10 @@ impl Stiffness {
         (0..moves.len()).map(product).collect()
     }
 
-    /// Adds a block at (row, column), and so its transpose at (column, row); held nodes and pairs
-    /// that were not announced are passed over.
-    pub(super) fn add(&mut self, row: u32, column: u32, block: &Mat3) {
-        if let Some(place) = self.pattern.place(row, column) {
+    /// Adds a block to a node's own; a held node is passed over.
+    pub(super) fn add_own(&mut self, node: usize, block: &Mat3) {
+        if let Some(place) = self.pattern.place(node as u32, node as u32) {
             self.blocks[place] += block;
-        }
-        if row != column
-            && let Some(place) = self.pattern.place(column, row)
-        {
-            self.blocks[place] += block.transpose();
         }
     }
 
@@ -145,5 +208,32 @@ impl Stiffness {
     pub(super) fn diagonal(&self, node: usize) -> Option<&Mat3> {
         let place = self.pattern.place(node as u32, node as u32)?;
         Some(&self.blocks[place])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sum_is_whole_on_both_sides_where_a_pair_joins_a_node_with_itself_and_one_is_held() {
+        let pairs = [[0, 1], [0, 3], [1, 1], [1, 2], [1, 3], [2, 3]];
+        let neighbours = Neighbours::new(4, &pairs);
+        let pattern = Arc::new(Pattern::new(&neighbours, &[false, false, true, false]));
+        assert_eq!(pattern.row(1), [0, 1, 3]);
+        let block = |k: u32| Mat3::from_fn(|i, j| f64::from(9 * k) + (3 * i + j) as f64);
+        let mut sum = Sum::new(pattern);
+        for (k, [row, column]) in (0..).zip([[0, 0], [0, 1], [3, 0], [3, 1], [1, 1], [1, 2]]) {
+            sum.add(row, column, &block(k));
+        }
+        let whole = sum.whole();
+        let (zero, one, three) = (whole.row(0), whole.row(1), whole.row(3));
+        assert_eq!(zero.1, [block(0), block(1), block(2).transpose()]);
+        assert_eq!(
+            one.1,
+            [block(1).transpose(), block(4), block(3).transpose()]
+        );
+        assert_eq!(three.1, [block(2), block(3), Mat3::zeros()]);
+        assert!(whole.row(2).0.is_empty());
     }
 }

@@ -139,7 +139,7 @@ fn pressed(lattice: &Lattice, at: &[Vec3], slip: &Vec3) -> (Touches, Vec<Vec3>) 
     };
     let at: Vec<Vec3> = at.iter().map(on_ball).collect();
     let mut touches = Touches::new(lattice, surface);
-    touches.refresh(&at, &Bodies::new(vec![ball]), 0.1, 0.1);
+    touches.refresh(&at, &Bodies::new(vec![ball]), |_| [0.1, 0.1]);
     touches.look_at_loads(&at);
     let at = at.iter().map(|at| at + slip).collect();
     (touches, at)

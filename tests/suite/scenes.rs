@@ -74,7 +74,10 @@ fn check(name: &str) {
 /// No node is inside a body, and no point between nodes visibly.
 fn is_outside(scene: &Scene, settled: &Settled) {
     let clearance = least_clearance(&scene.problem.bodies, &settled.positions);
-    assert!(clearance.is_none_or(|clearance| clearance > 0.0));
+    assert!(
+        clearance.is_none_or(|clearance| clearance > 0.0),
+        "{clearance:?}"
+    );
     let at = |node: u32| settled.positions[node as usize];
     // Other points than the certificate's.
     for [a, b, c] in settled.lattice.faces() {
