@@ -286,19 +286,21 @@ impl Run<'_> {
         standing: &mut Standing,
         round: usize,
     ) -> bool {
-        let short = standing.settled_for > 1;
-        if short || round % 8 == 7 {
+        let still = (SETTLED * self.settings.tolerance / 1e-3).max(2.0 * LEAST_ESTIMATE);
+        let mut remaining = standing.remaining;
+        if remaining >= still {
+            remaining = standing.worst_of(PATIENCE);
+        }
+        let stands = standing.settled_for > 1 && remaining < still.max(SWINGING);
+        // The residual takes as long as a step: it is asked for when all else says that this is rest.
+        if stands || round % 8 == 7 {
             standing.residual = greatest_residual(case, &level.at);
         }
-        let at_rest = standing.residual <= 0.5 * self.settings.tolerance;
-        if !short || !at_rest {
+        if !stands || standing.residual > 0.5 * self.settings.tolerance {
             return false;
         }
-        let still = (SETTLED * self.settings.tolerance / 1e-3).max(2.0 * LEAST_ESTIMATE);
-        if standing.remaining >= still {
-            standing.remaining = standing.worst_of(PATIENCE);
-        }
-        standing.remaining < still || standing.remaining < SWINGING
+        standing.remaining = remaining;
+        true
     }
 
     /// The paper's ten forces have no energy, so no joint step: sweeps alone, until the certificate
