@@ -1,6 +1,7 @@
 //! Measures what a sweep and a certificate cost on this machine, and what rapier's cloth does, and
 //! prints a table of each:
-//! `cargo run --release --example bench -- [updates|certificate|farther|rapier] [most nodes a side]`.
+//! `cargo run --release --example bench -- [updates|certificate|farther|rapier] [ball|hang] [most nodes
+//! a side]`.
 //!
 //! The work is always the same: a square of fabric C, 1 m a side, with N × N nodes, either held at
 //! two corners ("hang") or laid on a ball of radius 25 cm ("ball"). A figure of `updates` is the
@@ -38,10 +39,14 @@ const PATIENCE: f64 = 3000.0;
 
 fn main() -> Tried<()> {
     let mut what = "all".to_owned();
+    let mut works = WORKS.to_vec();
     let mut most = 129;
     for word in std::env::args().skip(1) {
         match word.parse() {
             Ok(number) => most = number,
+            Err(_) if WORKS.iter().any(|(name, _)| *name == word) => {
+                works.retain(|(name, _)| *name == word);
+            }
             Err(_) => what = word,
         }
     }
@@ -53,10 +58,10 @@ fn main() -> Tried<()> {
         updates()?;
     }
     if asked("certificate") {
-        certificates(most)?;
+        certificates(&works, most)?;
     }
     if asked("farther") {
-        farther(most)?;
+        farther(&works, most)?;
     }
     if asked("rapier") {
         let sides = [33, 65].into_iter().filter(|nodes| *nodes <= most);
@@ -116,13 +121,13 @@ fn on(threads: usize, problem: &Problem) -> Tried<f64> {
     Ok(crew.run(|| update(problem, 50).map_err(|error| error.to_string()))?)
 }
 
-fn certificates(most: u32) -> Tried<()> {
+fn certificates(works: &[(&str, Work)], most: u32) -> Tried<()> {
     println!("To the certificate at 1e-3");
     println!(
         "  work     N   nodes  seconds  sweeps on the finest  joint steps  updates in finest sweeps  \
          bytes a node at most"
     );
-    for (name, work) in WORKS {
+    for (name, work) in works {
         for nodes in SIDES.into_iter().filter(|nodes| *nodes <= most) {
             let problem = work(nodes)?;
             let before = MEMORY.current_usage();
@@ -168,10 +173,10 @@ fn unless_certified(settled: &Settled) -> &'static str {
 }
 
 /// How far the drape of 1e-3 is from where the same run, carried on to 1e-6, ends.
-fn farther(most: u32) -> Tried<()> {
+fn farther(works: &[(&str, Work)], most: u32) -> Tried<()> {
     println!("From the certificate at 1e-3 to that at 1e-6");
     println!("  work     N  farthest node [cm]");
-    for (name, work) in WORKS {
+    for (name, work) in works {
         for nodes in SIDES.into_iter().filter(|nodes| *nodes <= most) {
             let problem = work(nodes)?;
             let stopped = settled(&problem, 1e-3)?;
