@@ -6,6 +6,7 @@
 //! a body may stand between nodes. A *touch* is a site near one
 //! part of a body: the plane of the nearest surface, and the anchor that friction holds on to.
 
+mod clearance;
 mod deepest;
 mod footing;
 mod law;

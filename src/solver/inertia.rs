@@ -8,7 +8,7 @@
 
 use super::{
     joint::Joint,
-    leader::Guide,
+    leader::Leader,
     level::Level,
     model::longest,
     rest::{Run, Standing},
@@ -108,7 +108,7 @@ impl Inertia {
             (SEEN * gone + SEEN_ANYWHERE * any).min(2.0 * any)
         };
         let ways: Vec<f64> = threads::map(level.at.len(), way);
-        level.look_about(&ways);
+        level.look_about(|node| [ways[node]; 2]);
         self.seen.clone_from(&level.at);
         self.fastest = 0.0;
     }
@@ -191,7 +191,7 @@ struct Stride {
 
 impl Level<'_> {
     /// One step with inertia, no node led farther than `cap` [cm].
-    fn stride(&mut self, guide: &Guide, inertia: &mut Inertia, cap: f64) -> Stride {
+    fn stride(&mut self, guide: &Leader, inertia: &mut Inertia, cap: f64) -> Stride {
         let from = self.at.clone();
         let run = inertia.run as f64;
         inertia.wake(self);

@@ -13,7 +13,7 @@
 
 use super::{
     factor::Plan,
-    leader::{Guide, Leader, Way, plan_of},
+    leader::{Leader, Way, plan_of},
     level::Level,
     model::{Answer, exact_answer, longest, near_answer, way_out},
     packed::{Layout, Packed},
@@ -162,20 +162,20 @@ impl Joint {
         self.positive(level, Leader::new)
     }
 
-    /// What leads steps with inertia, of the same matrix.
-    pub(super) fn guide(&mut self, level: &Level<'_>) -> Option<Guide> {
-        self.positive(level, |way, matrix| Guide::new(way, &matrix))
+    /// What leads steps with inertia: of the same matrix's answers, what sweeps would take long to find.
+    pub(super) fn guide(&mut self, level: &Level<'_>) -> Option<Leader> {
+        self.positive(level, Leader::smooth)
     }
 
-    fn positive<T>(
+    fn positive(
         &mut self,
         level: &Level<'_>,
-        lead: impl Fn(&Way, Stiffness) -> Option<T>,
-    ) -> Option<T> {
+        lead: fn(&Way, &Stiffness) -> Option<Leader>,
+    ) -> Option<Leader> {
         for _ in 0..DAMPED_MORE {
-            let found = lead(&self.way, self.damped(level, true));
-            if found.is_some() {
-                return found;
+            let leader = lead(&self.way, &self.damped(level, true));
+            if leader.is_some() {
+                return leader;
             }
             for damping in &mut self.damping {
                 *damping = 10.0 * damping.max(1e-3 / level.lattice.pitch);
@@ -198,8 +198,8 @@ impl Joint {
     fn step_after(&mut self, level: &mut Level<'_>, rough: bool, bold: bool) -> Option<Step> {
         level.joint_steps += 1;
         let forces = level.forces(&level.at);
-        let (leader, answer) = self.ask(level, &forces, rough)?;
         let far = level.lattice.pitch;
+        let (leader, answer) = self.ask(level, &forces, far, rough)?;
         let (moves, exact) = match answer {
             Answer::Moves(moves) if longest(&moves) < NEAR * far => (moves, true),
             Answer::Moves(moves) | Answer::Downhill(moves) if bold => (moves, false),
@@ -222,30 +222,29 @@ impl Joint {
     /// `None` where it is not known.
     pub(super) fn wish(&mut self, level: &mut Level<'_>, far: f64) -> Option<Vec<Vec3>> {
         level.joint_steps += 1;
-        let exact = self.assembled(level, false);
         let forces = level.forces(&level.at);
-        let moves = match self.factored(level, &exact) {
-            Some(factored) => factored.answer(&forces),
-            None => {
-                let leader = self.leader(level)?;
-                match exact_answer(&leader, &self.packed(&exact), &forces, far, true) {
-                    Answer::Moves(moves) | Answer::Downhill(moves) => moves,
-                    Answer::Unclear => return None,
-                }
-            }
-        };
-        longest(&moves).is_finite().then_some(moves)
+        match self.ask(level, &forces, far, true)?.1 {
+            Answer::Moves(moves) | Answer::Downhill(moves) => Some(moves),
+            Answer::Unclear => None,
+        }
+        .filter(|moves| longest(moves).is_finite())
     }
 
-    /// What the exact stiffness answers to forces [gf], and what leads there.
-    fn ask(&mut self, level: &Level<'_>, forces: &[Vec3], rough: bool) -> Option<(Leader, Answer)> {
+    /// What the exact stiffness answers to forces [gf], a search followed no farther than `far` [cm], and
+    /// what leads there.
+    fn ask(
+        &mut self,
+        level: &Level<'_>,
+        forces: &[Vec3],
+        far: f64,
+        rough: bool,
+    ) -> Option<(Leader, Answer)> {
         let exact = self.assembled(level, false);
         if let Some(factored) = self.factored(level, &exact) {
             let moves = factored.answer(forces);
             return Some((factored, Answer::Moves(moves)));
         }
         let leader = self.leader(level)?;
-        let far = level.lattice.pitch;
         let answer = exact_answer(&leader, &self.packed(&exact), forces, far, rough);
         Some((leader, answer))
     }

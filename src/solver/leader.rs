@@ -5,7 +5,7 @@ use super::{
     dissection::{Neighbours, dissect},
     factor::{Factor, Plan},
     level::Level,
-    multigrid::{Coarser, Levels, Multigrid},
+    multigrid::{Levels, Multigrid},
     stiffness::{Pattern, Stiffness},
 };
 use crate::math::Vec3;
@@ -67,11 +67,21 @@ pub(super) enum Leader {
 
 impl Leader {
     /// Of a matrix; `None` where it is not positive definite.
-    pub(super) fn new(way: &Way, matrix: Stiffness) -> Option<Self> {
+    pub(super) fn new(way: &Way, matrix: &Stiffness) -> Option<Self> {
         Some(match way {
-            Way::Factors(plan) => Self::by_factors(plan, &matrix)?,
+            Way::Factors(plan) => Self::by_factors(plan, matrix)?,
             Way::Levels(levels) => {
-                Self::Levels(Arc::clone(levels), Multigrid::new(levels, &matrix)?)
+                Self::Levels(Arc::clone(levels), Multigrid::new(levels, matrix)?)
+            }
+        })
+    }
+
+    /// The same for what sweeps would take long to find of an answer: by multigrid, its smooth part.
+    pub(super) fn smooth(way: &Way, matrix: &Stiffness) -> Option<Self> {
+        Some(match way {
+            Way::Factors(plan) => Self::by_factors(plan, matrix)?,
+            Way::Levels(levels) => {
+                Self::Levels(Arc::clone(levels), Multigrid::smooth(levels, matrix)?)
             }
         })
     }
@@ -86,33 +96,6 @@ impl Leader {
         match self {
             Self::Factors(plan, factor) => factor.solve(plan, forces),
             Self::Levels(levels, multigrid) => multigrid.answer(levels, forces),
-        }
-    }
-}
-
-/// What leads steps with inertia: of a positive matrix's answer, what sweeps would take long to find.
-#[derive(Debug)]
-pub(super) enum Guide {
-    /// The whole of an exact answer.
-    Factors(Arc<Plan>, Factor),
-    /// The smooth part of one by multigrid.
-    Levels(Arc<Levels>, Coarser),
-}
-
-impl Guide {
-    /// Of a matrix; `None` where it is not positive definite.
-    pub(super) fn new(way: &Way, matrix: &Stiffness) -> Option<Self> {
-        Some(match way {
-            Way::Factors(plan) => Self::Factors(Arc::clone(plan), Factor::new(plan, matrix)?),
-            Way::Levels(levels) => Self::Levels(Arc::clone(levels), Coarser::new(levels, matrix)?),
-        })
-    }
-
-    /// The moves [cm] that answer forces [gf]; held nodes stay.
-    pub(super) fn answer(&self, forces: &[Vec3]) -> Vec<Vec3> {
-        match self {
-            Self::Factors(plan, factor) => factor.solve(plan, forces),
-            Self::Levels(levels, coarser) => coarser.answer(levels, forces),
         }
     }
 }

@@ -8,7 +8,7 @@ use super::{
     joint::Joint,
     level::Level,
     model::longest,
-    rest::{Run, Standing},
+    rest::{Approach, Run, Standing},
 };
 use crate::math::Vec3;
 
@@ -29,17 +29,6 @@ const RELAXING: usize = 20;
 /// Leaps of a series, and how many may fail.
 const LEAPS: usize = 10;
 const FAILURES: usize = 3;
-
-/// What came of a series of leaps.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Leapt {
-    /// The joint system asks for so little that it needs none.
-    Near,
-    /// The cloth has gone on.
-    On,
-    /// No leap brought it lower.
-    Nowhere,
-}
 
 /// How far leaps are trusted to go.
 #[derive(Clone, Copy, Debug)]
@@ -75,43 +64,45 @@ impl Leaps {
 
 impl Run<'_> {
     /// Leaps as long as that lowers the energy and the joint system asks for more than `near` [cm].
+    /// Returns whether the cloth has leapt and is still as far from rest, for all that is known.
     pub(super) fn leap(
         &mut self,
         level: &mut Level<'_>,
         joint: &mut Joint,
-        leaps: &mut Leaps,
+        approach: &mut Approach,
         near: f64,
         standing: &Standing,
-    ) -> Leapt {
+    ) -> bool {
+        let leaps = &mut approach.leaps;
         let pitch = level.lattice.pitch;
-        let mut came = Leapt::Nowhere;
+        let mut leapt = false;
         let mut failures = 0;
         if !leaps.some(pitch) {
-            return came;
+            return leapt;
         }
         leaps.next = leaps.next.clamp(SHORTEST * pitch, leaps.longest);
-        for _ in 0..LEAPS {
+        'series: for _ in 0..LEAPS {
             joint.look(level, pitch);
             let Some(moves) = joint.wish(level, LONGEST * pitch) else {
                 break;
             };
             if longest(&moves) < near {
-                return Leapt::Near;
+                return false;
             }
             while !self.leap_once(level, joint, leaps, &moves, standing) {
                 failures += 1;
                 if leaps.next < SHORTEST * pitch || failures == FAILURES {
-                    leaps.longest *= CALMER;
-                    return came;
+                    break 'series;
                 }
             }
-            came = Leapt::On;
+            leapt = true;
+            approach.inertia.stop(level);
             if self.stopped {
                 break;
             }
         }
         leaps.longest *= CALMER;
-        came
+        leapt
     }
 
     /// One leap along such moves [cm], and what takes back what it has lengthened. Returns whether the

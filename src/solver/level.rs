@@ -123,15 +123,12 @@ impl<'a> Level<'a> {
 
     /// Looks again where bodies are near and how hard they press; moves up to `way` [cm] follow.
     pub(super) fn look(&mut self, way: f64, sample_way: f64) {
-        self.touches
-            .refresh(&self.at, self.bodies, |_| [way, sample_way]);
-        self.touches.look_at_loads(&self.at);
+        self.look_about(|_| [way, sample_way]);
     }
 
-    /// Looks again where bodies are near to nodes that may go such ways [cm].
-    pub(super) fn look_about(&mut self, ways: &[f64]) {
-        let way = |node: usize| [ways[node]; 2];
-        self.touches.refresh(&self.at, self.bodies, way);
+    /// The same where each node goes such ways [cm] of its own, and the samples beside it.
+    pub(super) fn look_about(&mut self, ways: impl Fn(usize) -> [f64; 2] + Sync + Send) {
+        self.touches.refresh(&self.at, self.bodies, ways);
         self.touches.look_at_loads(&self.at);
     }
 

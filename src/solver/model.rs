@@ -221,7 +221,7 @@ mod tests {
     fn moves_answer_the_exact_stiffness_whatever_leads() {
         let ((way, positive), (_, exact)) = (chain(2.0), chain(0.01));
         let exact = packed(&exact);
-        let leader = Leader::new(&way, positive).unwrap();
+        let leader = Leader::new(&way, &positive).unwrap();
         let Answer::Moves(moves) = exact_answer(&leader, &exact, &forces(), 1e6, false) else {
             panic!("it is positive");
         };
@@ -239,7 +239,7 @@ mod tests {
     fn a_negative_direction_is_found_and_is_one() {
         let ((way, positive), (_, exact)) = (chain(1.0), chain(-0.02));
         let exact = packed(&exact);
-        let leader = Leader::new(&way, positive).unwrap();
+        let leader = Leader::new(&way, &positive).unwrap();
         let out = way_out(&leader, &exact, &forces()).expect("there is one");
         assert!(dot(&out, &exact.times(&out)) < 0.0);
         let Answer::Downhill(moves) = exact_answer(&leader, &exact, &forces(), 50.0, false) else {

@@ -248,75 +248,63 @@ impl Visits {
     }
 }
 
-/// A positive matrix summed up on the coarser levels.
-#[derive(Debug)]
-pub(super) struct Coarser {
-    visits: Vec<Visits>,
-    coarsest: Factor,
-}
-
-impl Coarser {
-    /// Of a matrix of the finest level; `None` where it is not positive definite there.
-    pub(super) fn new(levels: &Levels, finest: &Stiffness) -> Option<Self> {
-        let mut visits = Vec::new();
-        let mut coarser: Option<Stiffness> = None;
-        for (number, step) in levels.steps.iter().enumerate() {
-            let matrix = coarser.as_ref().unwrap_or(finest);
-            if number > 0 {
-                visits.push(Visits::new(step, matrix)?);
-            }
-            coarser = Some(summed_up(step, matrix));
-        }
-        let coarsest = Factor::new(&levels.coarsest, coarser.as_ref().unwrap_or(finest))?;
-        Some(Self { visits, coarsest })
-    }
-
-    /// What there is of the answer [cm] to forces [gf] on the finest level that is smooth.
-    pub(super) fn answer(&self, levels: &Levels, forces: &[Vec3]) -> Vec<Vec3> {
-        match levels.steps.first() {
-            None => self.answer_at(levels, 1, forces),
-            Some(step) => {
-                let coarse = self.answer_at(levels, 1, &step.children.sum(forces));
-                step.parents.sum(&coarse)
-            }
-        }
-    }
-
-    fn answer_at(&self, levels: &Levels, number: usize, forces: &[Vec3]) -> Vec<Vec3> {
-        match self.visits.get(number - 1) {
-            None => self.coarsest.solve(&levels.coarsest, forces),
-            Some(visits) => visits.answer(&levels.steps[number], forces, |left| {
-                self.answer_at(levels, number + 1, left)
-            }),
-        }
-    }
-}
-
 /// A positive matrix on all levels.
 #[derive(Debug)]
 pub(super) struct Multigrid {
-    /// On the finest level, where there is a coarser one.
+    /// On the finest level; `None` where the smooth part of an answer is enough.
     finest: Option<Visits>,
-    coarser: Coarser,
+    /// On the levels below, but the coarsest.
+    coarser: Vec<Visits>,
+    coarsest: Factor,
 }
 
 impl Multigrid {
     /// Of a matrix; `None` where it is not positive definite.
     pub(super) fn new(levels: &Levels, matrix: &Stiffness) -> Option<Self> {
-        let finest = match levels.steps.first() {
-            None => None,
-            Some(step) => Some(Visits::new(step, matrix)?),
-        };
-        let coarser = Coarser::new(levels, matrix)?;
-        Some(Self { finest, coarser })
+        let mut multigrid = Self::smooth(levels, matrix)?;
+        if let Some(step) = levels.steps.first() {
+            multigrid.finest = Some(Visits::new(step, matrix)?);
+        }
+        Some(multigrid)
     }
 
-    /// About the moves [cm] that answer forces [gf]; held nodes stay.
+    /// Of a matrix, summed up on the coarser levels alone; `None` where it is not positive definite
+    /// there.
+    pub(super) fn smooth(levels: &Levels, finest: &Stiffness) -> Option<Self> {
+        let mut coarser = Vec::new();
+        let mut summed: Option<Stiffness> = None;
+        for (number, step) in levels.steps.iter().enumerate() {
+            let matrix = summed.as_ref().unwrap_or(finest);
+            if number > 0 {
+                coarser.push(Visits::new(step, matrix)?);
+            }
+            summed = Some(summed_up(step, matrix));
+        }
+        Some(Self {
+            finest: None,
+            coarser,
+            coarsest: Factor::new(&levels.coarsest, summed.as_ref().unwrap_or(finest))?,
+        })
+    }
+
+    /// About the moves [cm] that answer forces [gf], or what there is of them that is smooth; held nodes
+    /// stay.
     pub(super) fn answer(&self, levels: &Levels, forces: &[Vec3]) -> Vec<Vec3> {
-        let below = |forces: &[Vec3]| self.coarser.answer_at(levels, 1, forces);
-        match levels.steps.first().zip(self.finest.as_ref()) {
-            None => below(forces),
-            Some((step, visits)) => visits.answer(step, forces, below),
+        let below = |forces: &[Vec3]| self.answer_below(levels, 1, forces);
+        match (levels.steps.first(), &self.finest) {
+            (None, _) => below(forces),
+            (Some(step), None) => step.parents.sum(&below(&step.children.sum(forces))),
+            (Some(step), Some(finest)) => finest.answer(step, forces, below),
+        }
+    }
+
+    /// The same on a coarser level, from 1 on.
+    fn answer_below(&self, levels: &Levels, number: usize, forces: &[Vec3]) -> Vec<Vec3> {
+        match self.coarser.get(number - 1) {
+            None => self.coarsest.solve(&levels.coarsest, forces),
+            Some(visits) => visits.answer(&levels.steps[number], forces, |left| {
+                self.answer_below(levels, number + 1, left)
+            }),
         }
     }
 }

@@ -5,7 +5,7 @@ use super::{
     film::Film,
     inertia::Inertia,
     joint::{Joint, Step},
-    leap::{Leaps, Leapt},
+    leap::Leaps,
     level::Level,
     model::longest,
     start::Start,
@@ -214,27 +214,22 @@ impl Run<'_> {
         approach: &mut Approach,
         standing: &Standing,
     ) -> Option<Step> {
-        let Approach {
-            inertia,
-            patience,
-            leaps,
-            bold,
-        } = approach;
         let pitch = level.lattice.pitch;
-        if !standing.near && !*bold {
-            self.glide(level, joint, inertia, standing, *patience as usize);
-            *patience = (*patience * LATER_TRIES).min(RAREST_TRY);
-            if self.leap(level, joint, leaps, FAR * pitch, standing) == Leapt::On {
-                inertia.stop(level);
+        if !standing.near && !approach.bold {
+            let steps = approach.patience as usize;
+            self.glide(level, joint, &mut approach.inertia, standing, steps);
+            approach.patience = (approach.patience * LATER_TRIES).min(RAREST_TRY);
+            if self.leap(level, joint, approach, FAR * pitch, standing) {
                 return None;
             }
         }
         let last = standing.number + 1 == self.levels;
-        *bold = last && (*bold || standing.near || joint.goes_farther_than(inertia.last));
-        let step = joint.round(level, standing.made, *bold);
-        *bold &= step.is_some_and(|step| step.made > WORTHWHILE * pitch);
+        let bold = standing.near || joint.goes_farther_than(approach.inertia.last);
+        approach.bold = last && (approach.bold || bold);
+        let step = joint.round(level, standing.made, approach.bold);
+        approach.bold &= step.is_some_and(|step| step.made > WORTHWHILE * pitch);
         if step.is_some() {
-            inertia.stop(level);
+            approach.inertia.stop(level);
         }
         step
     }
@@ -287,10 +282,11 @@ impl Run<'_> {
         round: usize,
     ) -> bool {
         let still = (SETTLED * self.settings.tolerance / 1e-3).max(2.0 * LEAST_ESTIMATE);
-        let mut remaining = standing.remaining;
-        if remaining >= still {
-            remaining = standing.worst_of(PATIENCE);
-        }
+        let remaining = if standing.remaining < still {
+            standing.remaining
+        } else {
+            standing.worst_of(PATIENCE)
+        };
         let stands = standing.settled_for > 1 && remaining < still.max(SWINGING);
         // The residual takes as long as a step: it is asked for when all else says that this is rest.
         if stands || round % 8 == 7 {
@@ -338,12 +334,12 @@ impl Run<'_> {
 }
 
 /// How a cloth that has landed comes near rest.
-struct Approach {
-    inertia: Inertia,
+pub(super) struct Approach {
+    pub(super) inertia: Inertia,
     /// Steps with inertia before the next leap or joint step is tried.
     patience: f64,
     /// How far it is trusted to leap.
-    leaps: Leaps,
+    pub(super) leaps: Leaps,
     /// Whether bold joint steps are what takes it farthest.
     bold: bool,
 }
