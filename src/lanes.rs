@@ -22,29 +22,33 @@ const TWO_TO_52: f64 = 4_503_599_627_370_496.0;
 const TWO_52: u64 = 0x4330_0000_0000_0000;
 const ONE: u64 = 0x3FF0_0000_0000_0000;
 const MANTISSA: u64 = 0x000F_FFFF_FFFF_FFFF;
-/// `log₂((1 + t)/(1 − t)) = 2/ln 2·(t + t³/3 + …)`, over t, in t².
-const ATANH: [f64; 8] = {
-    let mut terms = [0.0; 8];
-    let mut k = 0;
-    while k < 8 {
-        terms[k] = 2.0 * core::f64::consts::LOG2_E / (2 * k + 1) as f64;
-        k += 1;
-    }
-    terms
-};
-/// `2ˣ = Σ (x·ln 2)ᵏ/k!`.
-const EXP2: [f64; 13] = {
-    let mut terms = [1.0; 13];
-    let mut k = 1;
-    while k < 13 {
-        terms[k] = terms[k - 1] * core::f64::consts::LN_2 / k as f64;
-        k += 1;
-    }
-    terms
-};
+/// `log₂((1 + t)/(1 − t))` over t, in t², for numbers from 1/√2 to √2: Chebyshev's interpolation,
+/// within 10⁻¹³.
+const ATANH: [f64; 6] = [
+    2.885_390_081_777_850_4,
+    0.961_796_694_112_359_5,
+    0.577_077_942_630_261_8,
+    0.412_209_227_330_524_45,
+    0.319_906_660_889_147_4,
+    0.282_887_182_630_735_65,
+];
+/// `2ˣ` from −½ to ½: Chebyshev's interpolation, within 2·10⁻¹⁴.
+const EXP2: [f64; 10] = [
+    1.000_000_000_000_013_5,
+    0.693_147_180_559_946_2,
+    0.240_226_506_956_403_4,
+    0.055_504_108_664_651_67,
+    0.009_618_129_193_934_313,
+    0.001_333_355_820_079_459_2,
+    0.000_154_034_337_512_510_1,
+    0.000_015_252_672_924_850_737,
+    0.000_001_325_964_524_488_711,
+    0.000_000_102_059_054_137_655_95,
+];
 
-/// Numbers side by side.
+/// Numbers side by side, each as wide as a line of the cache: what lies across two takes twice as long.
 #[derive(Clone, Copy)]
+#[repr(align(64))]
 pub(crate) struct Lanes<S: Simd>(S, S::f64s);
 
 impl<S: Simd> Lanes<S> {
@@ -131,39 +135,84 @@ impl<S: Simd> Lanes<S> {
         Self::of(self.0, number).less_than(self).anywhere()
     }
 
-    /// A polynomial of it, its coefficients from the constant one up.
+    /// A polynomial of each of some, its coefficients from the constant one up. Each term waits for the
+    /// one before it, several times as long as it takes: so several are summed up in step.
     #[inline(always)]
-    pub(crate) fn polynomial(self, coefficients: &[f64]) -> Self {
-        let mut sum = Self::of(self.0, 0.0);
-        for coefficient in coefficients.iter().rev() {
-            sum = sum * self + Self::of(self.0, *coefficient);
+    pub(crate) fn polynomials<const N: usize>(
+        numbers: [Self; N],
+        coefficients: &[f64],
+    ) -> [Self; N] {
+        let (last, others) = coefficients.split_last().unwrap_or((&0.0, &[]));
+        let mut sums = numbers;
+        for sum in &mut sums {
+            *sum = Self::of(sum.0, *last);
         }
-        sum
+        for coefficient in others.iter().rev() {
+            for (sum, number) in sums.iter_mut().zip(numbers) {
+                *sum = *sum * number + Self::of(number.0, *coefficient);
+            }
+        }
+        sums
     }
 
-    /// Positive numbers to a power, by polynomials for logarithm (Mercator's series of
-    /// atanh, to t¹⁵) and exponential (Taylor's, to x¹²): within 10⁻¹² of the result for powers up
-    /// to 4 of numbers above 10⁻⁶. Numbers below 10⁻³⁰ are taken as 10⁻³⁰.
+    /// Positive numbers to a power each, by polynomials for logarithm and exponential: within 10⁻¹² of the
+    /// result for powers up to 4 of numbers above 10⁻⁶. Numbers below 10⁻³⁰ are taken as 10⁻³⁰.
     #[inline(always)]
-    pub(crate) fn power(self, exponent: f64) -> Self {
+    pub(crate) fn powers<const N: usize>(numbers: [Self; N], exponents: [f64; N]) -> [Self; N] {
+        let mut powers = Self::logarithms(numbers);
+        for (power, exponent) in powers.iter_mut().zip(exponents) {
+            let simd = power.0;
+            let least = Self::of(simd, -1000.0);
+            *power = (*power * exponent).max(least).min(Self::of(simd, 1000.0));
+        }
+        Self::powers_of_two(powers)
+    }
+
+    /// Logarithms to the base of 2 of numbers above 0.
+    #[inline(always)]
+    fn logarithms<const N: usize>(numbers: [Self; N]) -> [Self; N] {
+        let (mut wholes, mut parts, mut squares) = (numbers, numbers, numbers);
+        for k in 0..N {
+            (wholes[k], parts[k]) = numbers[k].split();
+            squares[k] = parts[k] * parts[k];
+        }
+        let series = Self::polynomials(squares, &ATANH);
+        for k in 0..N {
+            wholes[k] = wholes[k] + parts[k] * series[k];
+        }
+        wholes
+    }
+
+    /// n and t of numbers 2ⁿ·(1 + t)/(1 − t) above 0, |t| < 0.172.
+    #[inline(always)]
+    fn split(self) -> (Self, Self) {
         let simd = self.0;
+        let one = Self::of(simd, 1.0);
         let number = self.max(Self::of(simd, 1e-30));
         let whole =
             number.each(|x| f64::from_bits(x.to_bits() >> 52 | TWO_52) - (TWO_TO_52 + 1023.0));
         let part = number.each(|x| f64::from_bits(x.to_bits() & MANTISSA | ONE));
         let large = Self::of(simd, core::f64::consts::SQRT_2).less_than(part);
         let part = large.choose(part * 0.5, part);
-        let whole = large.choose(whole + Self::of(simd, 1.0), whole);
-        let one = Self::of(simd, 1.0);
-        let t = (part - one).over(part + one);
-        let logarithm = whole + t * (t * t).polynomial(&ATANH);
-        let power = (logarithm * exponent)
-            .max(Self::of(simd, -1000.0))
-            .min(Self::of(simd, 1000.0));
-        let magic = Self::of(simd, 1.5 * TWO_TO_52);
-        let whole = (power + magic) - magic;
-        let scale = whole.each(|n| f64::from_bits((n + (TWO_TO_52 + 1023.0)).to_bits() << 52));
-        (power - whole).polynomial(&EXP2) * scale
+        let whole = large.choose(whole + one, whole);
+        (whole, (part - one).over(part + one))
+    }
+
+    /// 2 to powers between −1000 and 1000.
+    #[inline(always)]
+    fn powers_of_two<const N: usize>(powers: [Self; N]) -> [Self; N] {
+        let (mut wholes, mut parts) = (powers, powers);
+        for (whole, part) in wholes.iter_mut().zip(&mut parts) {
+            let magic = Self::of(part.0, 1.5 * TWO_TO_52);
+            *whole = (*part + magic) - magic;
+            *part = *part - *whole;
+        }
+        let mut results = Self::polynomials(parts, &EXP2);
+        let scale = |n: f64| f64::from_bits((n + (TWO_TO_52 + 1023.0)).to_bits() << 52);
+        for (result, whole) in results.iter_mut().zip(wholes) {
+            *result = *result * whole.each(scale);
+        }
+        results
     }
 
     /// The lanes' own kind, to make others of.
@@ -310,7 +359,8 @@ mod tests {
                 .chunks(Lanes::<S>::COUNT)
                 .zip(powers.chunks_mut(Lanes::<S>::COUNT))
             {
-                Lanes::read(simd, numbers).power(self.1).write(powers);
+                let [power] = Lanes::powers([Lanes::read(simd, numbers)], [self.1]);
+                power.write(powers);
             }
             powers
         }

@@ -56,15 +56,28 @@ const BLOCK: usize = 1024;
 
 /// The sum of `term` over `0..count`, block by block.
 pub(crate) fn sum(count: usize, term: impl Fn(usize) -> f64 + Sync + Send) -> f64 {
-    let block = |k: usize| -> f64 { (k * BLOCK..count.min((k + 1) * BLOCK)).map(&term).sum() };
+    blocks(count, |block| block.map(&term).sum())
+        .into_iter()
+        .sum()
+}
+
+/// The greatest `term` over `0..count`, and no less than 0.
+pub(crate) fn most(count: usize, term: impl Fn(usize) -> f64 + Sync + Send) -> f64 {
+    blocks(count, |block| block.map(&term).fold(0.0, f64::max))
+        .into_iter()
+        .fold(0.0, f64::max)
+}
+
+/// What `work` makes of each block.
+fn blocks(count: usize, work: impl Fn(core::ops::Range<usize>) -> f64 + Sync + Send) -> Vec<f64> {
+    let block = |k: usize| work(k * BLOCK..count.min((k + 1) * BLOCK));
     let blocks = count.div_ceil(BLOCK);
     #[cfg(feature = "threads")]
     if shared() {
         use rayon::prelude::*;
-        let sums: Vec<f64> = (0..blocks).into_par_iter().map(block).collect();
-        return sums.into_iter().sum();
+        return (0..blocks).into_par_iter().map(block).collect();
     }
-    (0..blocks).map(block).sum()
+    (0..blocks).map(block).collect()
 }
 
 /// Calls `work` on every chunk of `length` entries (the last may be shorter), with its number.

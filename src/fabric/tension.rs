@@ -81,28 +81,39 @@ impl Tension {
         self.answer(strain, floor).tangent
     }
 
-    /// Tension and tangent [gf/cm] at strains side by side, as in [`answer`](Self::answer).
+    /// Tension and tangent [gf/cm] of rods side by side, each by its own law, at their strains and with
+    /// their floors, as in [`answer`](Self::answer).
     #[inline(always)]
-    pub(crate) fn answers<S: Simd>(
-        &self,
-        strain: Lanes<S>,
-        floor: Lanes<S>,
-    ) -> (Lanes<S>, Lanes<S>) {
-        let simd = strain.kind();
-        let size = strain.abs();
-        let (modulus, growth) = match self {
-            Self::Power { a, b } => (size.power(*b) * *a, b + 1.0),
-            Self::Linear { modulus } => (Lanes::of(simd, *modulus), 1.0),
-            Self::Points(_) => return self.answers_one_by_one(strain, floor),
-        };
-        let (tension, tangent) = (modulus * size, modulus * growth);
-        let zero = Lanes::of(simd, 0.0);
-        let borne = tension.less_than(floor).choose(tangent, zero);
-        let shortened = strain.less_than(zero);
-        (
-            shortened.choose(-tension.min(floor), tension),
-            shortened.choose(borne, tangent),
-        )
+    pub(crate) fn answers<S: Simd, const N: usize>(
+        laws: [&Self; N],
+        strains: [Lanes<S>; N],
+        floors: [Lanes<S>; N],
+    ) -> [(Lanes<S>, Lanes<S>); N] {
+        let (mut exponents, mut powers) = ([0.0; N], strains);
+        for k in 0..N {
+            powers[k] = strains[k].abs();
+            if let Self::Power { b, .. } = laws[k] {
+                exponents[k] = *b;
+            }
+        }
+        if exponents != [0.0; N] {
+            powers = Lanes::powers(powers, exponents);
+        }
+        let mut answers = [(strains[0], strains[0]); N];
+        for k in 0..N {
+            let simd = strains[k].kind();
+            let (modulus, growth) = match laws[k] {
+                Self::Power { a, b } if *b == 0.0 => (Lanes::of(simd, *a), 1.0),
+                Self::Power { a, b } => (powers[k] * *a, b + 1.0),
+                Self::Linear { modulus } => (Lanes::of(simd, *modulus), 1.0),
+                Self::Points(_) => {
+                    answers[k] = laws[k].answers_one_by_one(strains[k], floors[k]);
+                    continue;
+                }
+            };
+            answers[k] = odd(modulus, growth, strains[k], floors[k]);
+        }
+        answers
     }
 
     #[inline(never)]
@@ -150,6 +161,25 @@ impl Tension {
             Self::Points(curve) => curve.strain_at(tension),
         }
     }
+}
+
+/// Tension and tangent [gf/cm] by a secant modulus [gf/cm] that grows with a power of strain one less
+/// than `growth`: odd in the strain, and never below the floor.
+#[inline(always)]
+fn odd<S: Simd>(
+    modulus: Lanes<S>,
+    growth: f64,
+    strain: Lanes<S>,
+    floor: Lanes<S>,
+) -> (Lanes<S>, Lanes<S>) {
+    let (tension, tangent) = (modulus * strain.abs(), modulus * growth);
+    let zero = Lanes::of(strain.kind(), 0.0);
+    let borne = tension.less_than(floor).choose(tangent, zero);
+    let shortened = strain.less_than(zero);
+    (
+        shortened.choose(-tension.min(floor), tension),
+        shortened.choose(borne, tangent),
+    )
 }
 
 #[cfg(test)]

@@ -1,53 +1,20 @@
 //! The pulls on nodes side by side: what [`Sheet::pull`](super::Sheet::pull) gives for one, for as
-//! many as the processor takes at once, without a sine, a cosine or their inverses.
+//! many as the processor takes at once, by [`series`] of cosines.
 //!
-//! With c the cosine between two rods, the angle law `½·k·(θ − θ₀)²` has the slope
-//! `k·(θ₀ − θ)/sin θ` by c, and `θ/sin θ` is a polynomial of `1 − c`. The stiffness is a simpler
-//! one than the exact: for bends `k·P/L²`, P across the rod, which is never less than the exact one
-//! without its mixed terms; for corners the square of the angle's derivative; for twists that of the
-//! gap's.
+//! The stiffness is a simpler one than the exact: for bends `k·P/L²`, P across the rod, which is never
+//! less than the exact one without its mixed terms; for corners the square of the angle's derivative;
+//! for twists that of the gap's.
 
 use super::{
     blocks::Blocks,
+    series,
     stencil::{BENDS, CORNERS, RODS, StencilsFrom, TWISTS},
     twist::LEAST_SPAN,
 };
 use crate::{
-    fabric::Fabric,
+    fabric::{Fabric, Tension},
     lanes::{Lanes, Points, Simd},
 };
-
-/// `θ/sin θ` in `1 − cos θ`, from 0° to 90°: Chebyshev's interpolation, within 6·10⁻¹⁰.
-const ARC_OVER_SINE: [f64; 12] = [
-    0.999_999_999_723_412_5,
-    0.333_333_412_856_133_6,
-    0.133_329_574_986_237_5,
-    0.057_211_907_885_685_725,
-    0.024_746_922_870_720_806,
-    0.015_116_314_108_640_3,
-    -0.006_956_934_755_601_454,
-    0.029_797_453_221_689_956,
-    -0.038_254_705_381_013_7,
-    0.036_507_088_698_214_035,
-    -0.018_817_364_088_836_14,
-    0.004_782_656_130_823_653,
-];
-
-/// `(π/2 − θ)/(sin θ·cos θ)` in `cos² θ`, up to [`NEARLY_SQUARE`]: Chebyshev's interpolation,
-/// within 3·10⁻⁹.
-const SHEAR_OVER_COSINE: [f64; 9] = [
-    1.000_000_001_330_611_2,
-    0.666_666_069_168_655,
-    0.533_377_113_607_841_7,
-    0.455_919_970_565_827_8,
-    0.423_245_723_164_520_73,
-    0.240_614_543_893_685_28,
-    0.900_963_914_635_905_2,
-    -1.022_494_759_414_104_3,
-    1.796_122_027_024_888,
-];
-/// Corners sheared by less than this sine (37°) need no square root.
-const NEARLY_SQUARE: f64 = 0.6;
 
 /// A rod from a point: its direction, its length [cm] and 1/its length [1/cm].
 #[derive(Clone, Copy)]
@@ -70,31 +37,48 @@ impl<S: Simd> Arm<S> {
             over,
         }
     }
+}
 
-    /// Derivative of the cosine between this arm and another by this arm.
-    #[inline(always)]
-    fn slope(&self, other: &Self, cosine: Lanes<S>) -> Points<S> {
-        (other.unit - self.unit * cosine) * self.over
-    }
+/// The cosine of a corner, the slope of its law by that, and 1/sin² θ.
+type Corner<S> = (Lanes<S>, Lanes<S>, Lanes<S>);
+
+/// The arms that bound each quarter, along the warp and along the weft.
+const QUARTERS: [[usize; 2]; 4] = [[0, 2], [1, 2], [1, 3], [0, 3]];
+
+/// The rods of nodes side by side.
+#[derive(Clone, Copy)]
+pub(crate) struct Rods<S: Simd> {
+    /// Directions away from the node.
+    units: [Points<S>; 4],
+    /// Tension [gf], and stiffness along and across [gf/cm].
+    pulls: [[Lanes<S>; 3]; 4],
 }
 
 /// The force on nodes side by side [gf] and, if asked for, their own stiffness [gf/cm].
 struct Sum<'a, S: Simd, const STIFF: bool> {
     simd: S,
     stencils: StencilsFrom<'a>,
+    /// But what goes along the four arms.
     force: Points<S>,
     blocks: Blocks<S>,
+    rods: Rods<S>,
+    /// Force along each arm [gf], and stiffness along it [gf/cm].
+    along: [Lanes<S>; 4],
+    squares: [Lanes<S>; 4],
+    /// Stiffness in any direction [gf/cm].
+    identity: Lanes<S>,
 }
 
-/// The forces on nodes side by side [gf] and, with `STIFF`, their own stiffness [gf/cm]; `points`
-/// are those around them, as [`PLACES`](super::PLACES) has them.
+/// The forces on nodes side by side [gf] and, with `STIFF`, their own stiffness [gf/cm] and what of it
+/// all is their rods'; `points` are those around them, as [`PLACES`](super::PLACES) has them.
 #[inline(always)]
 pub(crate) fn pulls<S: Simd, const STIFF: bool>(
     simd: S,
     fabric: &Fabric,
     stencils: StencilsFrom<'_>,
     points: &[Points<S>; 13],
-) -> (Points<S>, Blocks<S>) {
+) -> (Points<S>, Blocks<S>, Rods<S>) {
+    let zero = Lanes::of(simd, 0.0);
     let mut force = Points::zero(simd);
     force.0[2] = -stencils.weight(simd);
     let mut sum = Sum::<S, STIFF> {
@@ -102,128 +86,229 @@ pub(crate) fn pulls<S: Simd, const STIFF: bool>(
         stencils,
         force,
         blocks: Blocks::zero(simd),
+        rods: Rods {
+            units: [Points::zero(simd); 4],
+            pulls: [[zero; 3]; 4],
+        },
+        along: [zero; 4],
+        squares: [zero; 4],
+        identity: zero,
     };
-    let arm = |to: usize| Arm::new(points[0], points[to]);
-    let arms = [arm(1), arm(2), arm(3), arm(4)];
-    for (k, arm) in arms.iter().enumerate() {
-        sum.add_rod(fabric, k, arm);
-        // The bend about the neighbour.
-        let beyond = Arm::new(points[1 + k], points[5 + k]);
-        sum.add_far_bend(2 + k, arm, &beyond);
-    }
-    sum.add_own_bend(0, &arms[1], &arms[0]);
-    sum.add_own_bend(1, &arms[3], &arms[2]);
-    for (quarter, [along, across]) in [[0, 2], [1, 2], [1, 3], [0, 3]].into_iter().enumerate() {
-        let diagonal = points[9 + quarter];
-        let end = |k: usize| (&arms[k], points[1 + k]);
-        let ends = [end(along), end(across)];
-        sum.add_quarter(CORNERS + 6 * quarter, ends, diagonal);
-    }
+    let arm = |from: usize, to: usize| Arm::new(points[from], points[to]);
+    let arms = [arm(0, 1), arm(0, 2), arm(0, 3), arm(0, 4)];
+    let beyond = [arm(1, 5), arm(2, 6), arm(3, 7), arm(4, 8)];
+    sum.add_rods_and_bends(fabric, &arms, &beyond);
+    let sides = [
+        [arm(1, 9), arm(3, 9)],
+        [arm(2, 10), arm(3, 10)],
+        [arm(2, 11), arm(4, 11)],
+        [arm(1, 12), arm(4, 12)],
+    ];
+    sum.add_corners(&arms, &sides);
     if stencils.twisting() {
         sum.add_twists(points);
     }
-    (sum.force, sum.blocks)
+    sum.whole(&arms)
 }
 
 impl<S: Simd, const STIFF: bool> Sum<'_, S, STIFF> {
-    /// (5).
+    /// (5) and (6).
     #[inline(always)]
-    fn add_rod(&mut self, fabric: &Fabric, k: usize, arm: &Arm<S>) {
-        let simd = self.simd;
-        let at = RODS + 3 * k;
-        let over_rest = self.stencils.get(simd, at);
-        let width = self.stencils.get(simd, at + 1);
-        let floor = self.stencils.get(simd, at + 2);
-        let direction = if k < 2 { &fabric.warp } else { &fabric.weft };
-        let one = Lanes::of(simd, 1.0);
-        let strain = arm.length * over_rest - one;
-        let (tension, tangent) = direction.tension.answers(strain, floor);
-        let pull = tension * width;
-        self.force += arm.unit * pull;
+    fn add_rods_and_bends(&mut self, fabric: &Fabric, arms: &[Arm<S>; 4], beyond: &[Arm<S>; 4]) {
+        let answers = tensions(self.simd, fabric, self.stencils, arms);
+        let between = |one: &Arm<S>, other: &Arm<S>| one.unit.dot(other.unit);
+        let cosines = [
+            -between(&arms[1], &arms[0]),
+            -between(&arms[3], &arms[2]),
+            between(&arms[0], &beyond[0]),
+            between(&arms[1], &beyond[1]),
+            between(&arms[2], &beyond[2]),
+            between(&arms[3], &beyond[3]),
+        ];
+        let mut slopes = series::straight_slopes(cosines);
+        if !self.stencils.on_grain() || series::any_obtuse(cosines) {
+            slopes = series::bend_slopes(cosines, self.rests(BENDS), slopes);
+        }
+        self.add_own_bend(0, [1, 0], arms, (cosines[0], slopes[0]));
+        self.add_own_bend(1, [3, 2], arms, (cosines[1], slopes[1]));
+        // One by one: a loop's indices would keep all of this out of the registers.
+        let bend = |k: usize| (cosines[k], slopes[k]);
+        self.add_rod(0, &arms[0], answers[0]);
+        self.add_rod(1, &arms[1], answers[1]);
+        self.add_rod(2, &arms[2], answers[2]);
+        self.add_rod(3, &arms[3], answers[3]);
+        self.add_far_bend(0, &arms[0], &beyond[0], bend(2));
+        self.add_far_bend(1, &arms[1], &beyond[1], bend(3));
+        self.add_far_bend(2, &arms[2], &beyond[2], bend(4));
+        self.add_far_bend(3, &arms[3], &beyond[3], bend(5));
+    }
+
+    /// (5), by its tension [gf] and stiffness [gf/cm].
+    #[inline(always)]
+    fn add_rod(&mut self, k: usize, arm: &Arm<S>, [pull, stretch]: [Lanes<S>; 2]) {
+        self.along[k] = self.along[k] + pull;
         if STIFF {
             let sideways = (pull * arm.over).abs();
-            let stretch = tangent * width * over_rest;
-            self.blocks.add_identity(sideways);
-            self.blocks.add_square(arm.unit, stretch - sideways);
+            self.identity = self.identity + sideways;
+            self.squares[k] = self.squares[k] + (stretch - sideways);
+            self.rods.units[k] = arm.unit;
+            self.rods.pulls[k] = [pull, stretch, sideways];
         }
     }
 
-    /// (6), about the node itself.
+    /// (6), about the node itself, between the arms before and after it.
     #[inline(always)]
-    fn add_own_bend(&mut self, place: usize, before: &Arm<S>, after: &Arm<S>) {
-        let (stiffness, rest) = self.angle(BENDS + 2 * place);
-        let cosine = -before.unit.dot(after.unit);
-        let pull = stiffness * self.bend_slope(cosine, rest);
-        // The rod that comes in runs against `before`.
-        let back = Arm {
-            unit: before.unit * Lanes::of(self.simd, -1.0),
-            ..*before
-        };
-        self.force += (after.slope(&back, cosine) - back.slope(after, cosine)) * pull;
+    fn add_own_bend(
+        &mut self,
+        place: usize,
+        [before, after]: [usize; 2],
+        arms: &[Arm<S>; 4],
+        (cosine, slope): (Lanes<S>, Lanes<S>),
+    ) {
+        let (stiffness, _) = self.angle(BENDS + 2 * place);
+        let pull = stiffness * slope;
+        let (one, other) = (arms[before].over, arms[after].over);
+        self.along[before] = self.along[before] - pull * (other + cosine * one);
+        self.along[after] = self.along[after] - pull * (one + cosine * other);
         if STIFF {
-            let over = before.over + after.over;
+            let over = one + other;
             let factor = stiffness * over * over;
-            self.blocks.add_identity(factor);
-            self.blocks.add_square(before.unit, factor * -0.5);
-            self.blocks.add_square(after.unit, factor * -0.5);
+            self.identity = self.identity + factor;
+            for k in [before, after] {
+                self.squares[k] = self.squares[k] - factor * 0.5;
+            }
         }
     }
 
-    /// (6), about a neighbour.
+    /// (6), about the neighbour that an arm leads to.
     #[inline(always)]
-    fn add_far_bend(&mut self, place: usize, near: &Arm<S>, beyond: &Arm<S>) {
-        let (stiffness, rest) = self.angle(BENDS + 2 * place);
-        let cosine = near.unit.dot(beyond.unit);
-        let pull = stiffness * self.bend_slope(cosine, rest);
-        self.force += near.slope(beyond, cosine) * pull;
+    fn add_far_bend(
+        &mut self,
+        k: usize,
+        near: &Arm<S>,
+        beyond: &Arm<S>,
+        (cosine, slope): (Lanes<S>, Lanes<S>),
+    ) {
+        let (stiffness, _) = self.angle(BENDS + 2 * (2 + k));
+        let turn = stiffness * near.over;
+        let pull = turn * slope;
+        self.force += beyond.unit * pull;
+        self.along[k] = self.along[k] - pull * cosine;
         if STIFF {
-            let factor = stiffness * near.over * near.over;
-            self.blocks.add_identity(factor);
-            self.blocks.add_square(near.unit, -factor);
+            let factor = turn * near.over;
+            self.identity = self.identity + factor;
+            self.squares[k] = self.squares[k] - factor;
         }
     }
 
-    /// (7): the three corners of a quarter that the node belongs to.
+    /// (7): the three corners of each quarter that the node belongs to; `sides` are the arms from each
+    /// quarter's neighbours to its diagonal point.
     #[inline(always)]
-    fn add_quarter(&mut self, at: usize, ends: [(&Arm<S>, Points<S>); 2], diagonal: Points<S>) {
-        let [(along, _), (across, _)] = ends;
-        let cosine = along.unit.dot(across.unit);
-        let slope = along.slope(across, cosine) + across.slope(along, cosine);
-        self.add_corner(at, cosine, slope);
-        for (k, (arm, end)) in ends.into_iter().enumerate() {
-            let other = Arm::new(end, diagonal);
-            let back = Arm {
-                unit: arm.unit * Lanes::of(self.simd, -1.0),
-                ..*arm
-            };
-            let cosine = back.unit.dot(other.unit);
-            let slope = back.slope(&other, cosine) * Lanes::of(self.simd, -1.0);
-            self.add_corner(at + 2 * (k + 1), cosine, slope);
+    fn add_corners(&mut self, arms: &[Arm<S>; 4], sides: &[[Arm<S>; 2]; 4]) {
+        let mut cosines = [Lanes::of(self.simd, 0.0); 12];
+        for (quarter, [along, across]) in QUARTERS.into_iter().enumerate() {
+            let (one, other) = (arms[along].unit, arms[across].unit);
+            cosines[3 * quarter] = one.dot(other);
+            cosines[3 * quarter + 1] = -one.dot(sides[quarter][0].unit);
+            cosines[3 * quarter + 2] = -other.dot(sides[quarter][1].unit);
         }
+        let mut squares = cosines;
+        for square in &mut squares {
+            *square = *square * *square;
+        }
+        let mut pulls = series::right_slopes(cosines, squares);
+        let mut factors = squares;
+        for factor in &mut factors {
+            // 1/sin² θ, to the third term of its series.
+            let one = Lanes::of(self.simd, 1.0);
+            *factor = one + *factor * (one + *factor);
+        }
+        if !self.stencils.on_grain() || series::any_oblique(squares) {
+            let rests = self.rests(CORNERS);
+            (pulls, factors) = series::corner_slopes(cosines, rests, (pulls, factors));
+        }
+        let corner = |k: usize| (cosines[k], pulls[k], factors[k]);
+        self.add_quarter(0, arms, sides, [corner(0), corner(1), corner(2)]);
+        self.add_quarter(1, arms, sides, [corner(3), corner(4), corner(5)]);
+        self.add_quarter(2, arms, sides, [corner(6), corner(7), corner(8)]);
+        self.add_quarter(3, arms, sides, [corner(9), corner(10), corner(11)]);
     }
 
-    /// Adds a corner; `slope` is minus the derivative of its cosine by the node.
+    /// Adds the three corners of a quarter.
     #[inline(always)]
-    fn add_corner(&mut self, at: usize, cosine: Lanes<S>, slope: Points<S>) {
-        let (stiffness, rest) = self.angle(at);
-        let square = cosine * cosine;
-        let mut pull = cosine * square.polynomial(&SHEAR_OVER_COSINE);
-        // 1/sin² θ, to the third term of its series.
-        let mut factor = square.polynomial(&[1.0, 1.0, 1.0]);
-        let far = cosine.abs().any_above(NEARLY_SQUARE);
-        if far || !self.stencils.on_grain() {
-            // Which lanes take which way must not depend on which lanes stand together.
-            let over_sine = self.over_sine(cosine);
-            let right = Lanes::of(self.simd, core::f64::consts::FRAC_PI_2);
-            let off = (rest - right).abs() + (square - square.min(self.nearly_square()));
-            let near = off.less_than(Lanes::of(self.simd, 1e-12));
-            pull = near.choose(pull, self.slope(cosine, rest, over_sine));
-            factor = near.choose(factor, over_sine * over_sine);
-        }
-        self.force += slope * (stiffness * pull);
+    fn add_quarter(
+        &mut self,
+        quarter: usize,
+        arms: &[Arm<S>; 4],
+        sides: &[[Arm<S>; 2]; 4],
+        [own, first, second]: [Corner<S>; 3],
+    ) {
+        let [along, across] = QUARTERS[quarter];
+        let [one, other] = &sides[quarter];
+        let at = CORNERS + 6 * quarter;
+        self.add_own_corner(at, [along, across], arms, own);
+        self.add_side_corner(at + 2, along, [&arms[along], one], first);
+        self.add_side_corner(at + 4, across, [&arms[across], other], second);
+    }
+
+    /// Adds a corner between two arms.
+    #[inline(always)]
+    fn add_own_corner(
+        &mut self,
+        at: usize,
+        [one, other]: [usize; 2],
+        arms: &[Arm<S>; 4],
+        (cosine, pull, factor): Corner<S>,
+    ) {
+        let (stiffness, _) = self.angle(at);
+        let (a, b) = (&arms[one], &arms[other]);
+        let pull = stiffness * pull;
+        // Minus the derivative of its cosine by the node, along each arm.
+        let along_a = b.over - a.over * cosine;
+        let along_b = a.over - b.over * cosine;
+        self.along[one] = self.along[one] + pull * along_a;
+        self.along[other] = self.along[other] + pull * along_b;
         if STIFF {
+            let slope = a.unit * along_a + b.unit * along_b;
             self.blocks.add_square(slope, stiffness * factor);
         }
+    }
+
+    /// Adds the corner at the end of an arm, between it and the arm from there.
+    #[inline(always)]
+    fn add_side_corner(
+        &mut self,
+        at: usize,
+        end: usize,
+        [arm, side]: [&Arm<S>; 2],
+        (cosine, pull, factor): Corner<S>,
+    ) {
+        let (stiffness, _) = self.angle(at);
+        let turn = stiffness * arm.over;
+        let pull = turn * pull;
+        if STIFF {
+            let slope = side.unit + arm.unit * cosine;
+            self.force += slope * -pull;
+            self.blocks.add_square(slope, turn * arm.over * factor);
+        } else {
+            self.force += side.unit * -pull;
+            self.along[end] = self.along[end] - pull * cosine;
+        }
+    }
+
+    /// All of it, with what goes along the arms.
+    #[inline(always)]
+    fn whole(mut self, arms: &[Arm<S>; 4]) -> (Points<S>, Blocks<S>, Rods<S>) {
+        for (arm, along) in arms.iter().zip(self.along) {
+            self.force += arm.unit * along;
+        }
+        if STIFF {
+            self.blocks.add_identity(self.identity);
+            for (arm, square) in arms.iter().zip(self.squares) {
+                self.blocks.add_square(arm.unit, square);
+            }
+        }
+        (self.force, self.blocks, self.rods)
     }
 
     /// The twists of the four cells about the node.
@@ -252,9 +337,14 @@ impl<S: Simd, const STIFF: bool> Sum<'_, S, STIFF> {
         }
     }
 
+    /// Angles at rest [rad] of so many bends or corners.
     #[inline(always)]
-    fn nearly_square(&self) -> Lanes<S> {
-        Lanes::of(self.simd, NEARLY_SQUARE * NEARLY_SQUARE)
+    fn rests<const N: usize>(&self, at: usize) -> [Lanes<S>; N] {
+        let mut rests = [Lanes::of(self.simd, 0.0); N];
+        for (k, rest) in rests.iter_mut().enumerate() {
+            (_, *rest) = self.angle(at + 2 * k);
+        }
+        rests
     }
 
     #[inline(always)]
@@ -264,176 +354,68 @@ impl<S: Simd, const STIFF: bool> Sum<'_, S, STIFF> {
             self.stencils.get(self.simd, at + 1),
         )
     }
+}
 
-    #[inline(always)]
-    fn over_sine(&self, cosine: Lanes<S>) -> Lanes<S> {
-        let one = Lanes::of(self.simd, 1.0);
-        // As in `turn`, rods folded onto each other have no direction to open.
-        let square = (one - cosine * cosine).max(Lanes::of(self.simd, 1e-18));
-        one.over(square.sqrt())
+/// Tension [gf] and stiffness along [gf/cm] of the four rods.
+#[inline(always)]
+fn tensions<S: Simd>(
+    simd: S,
+    fabric: &Fabric,
+    stencils: StencilsFrom<'_>,
+    arms: &[Arm<S>; 4],
+) -> [[Lanes<S>; 2]; 4] {
+    let one = Lanes::of(simd, 1.0);
+    let number = |k: usize| stencils.get(simd, RODS + k);
+    let rod = |k: usize| [number(3 * k), number(3 * k + 1), number(3 * k + 2)];
+    let rods = [rod(0), rod(1), rod(2), rod(3)];
+    let strain = |k: usize| arms[k].length * rods[k][0] - one;
+    let (warp, weft) = (&fabric.warp.tension, &fabric.weft.tension);
+    let answers = Tension::answers(
+        [warp, warp, weft, weft],
+        [strain(0), strain(1), strain(2), strain(3)],
+        [rods[0][2], rods[1][2], rods[2][2], rods[3][2]],
+    );
+    let mut tensions = [[one; 2]; 4];
+    for (k, (tension, tangent)) in answers.into_iter().enumerate() {
+        let [over_rest, width, _] = rods[k];
+        tensions[k] = [tension * width, tangent * width * over_rest];
     }
+    tensions
+}
 
-    /// `(θ₀ − θ)/sin θ`, the slope of `½(θ − θ₀)²` by the cosine.
+impl<S: Simd> Rods<S> {
+    /// What the nodes' rods would do along a way [gf·cm] where it ends, were their stiffness the same
+    /// all along.
     #[inline(always)]
-    fn slope(&self, cosine: Lanes<S>, rest: Lanes<S>, over_sine: Lanes<S>) -> Lanes<S> {
-        let acute = arc_over_sine(cosine);
-        let zero = Lanes::of(self.simd, 0.0);
-        let pi = Lanes::of(self.simd, core::f64::consts::PI);
-        let blunt = cosine.less_than(zero);
-        // An obtuse angle is π less an acute one.
-        let from = blunt.choose(rest - pi, rest);
-        from * over_sine + blunt.choose(acute, -acute)
-    }
-
-    /// The same for bends, most of which are straight at rest and less than a right angle.
-    #[inline(always)]
-    fn bend_slope(&self, cosine: Lanes<S>, rest: Lanes<S>) -> Lanes<S> {
-        if self.stencils.on_grain() && !cosine.any_below(0.0) {
-            return -arc_over_sine(cosine);
+    pub(crate) fn along(&self, way: Points<S>) -> Lanes<S> {
+        let square = way.dot(way);
+        let mut work = square * 0.0;
+        for (unit, [pull, stretch, sideways]) in self.units.iter().zip(self.pulls) {
+            let along = unit.dot(way);
+            work = work + along * (pull - (stretch - sideways) * along) - sideways * square;
         }
-        let zero = Lanes::of(self.simd, 0.0);
-        let slope = self.slope(cosine, rest, self.over_sine(cosine));
-        // Straight rods at rest: 0/0, in the limit −1.
-        let straight = Lanes::of(self.simd, 0.5).less_than(cosine);
-        let exact = zero.less_than(rest);
-        exact.choose(slope, straight.choose(-arc_over_sine(cosine), slope))
+        work
     }
 }
 
+/// What the rods of nodes side by side do along a way [gf·cm] where it ends; the first of the `points`
+/// is there.
 #[inline(always)]
-fn arc_over_sine<S: Simd>(cosine: Lanes<S>) -> Lanes<S> {
-    (Lanes::of(cosine.kind(), 1.0) - cosine.abs()).polynomial(&ARC_OVER_SINE)
+pub(crate) fn work_of_rods<S: Simd>(
+    simd: S,
+    fabric: &Fabric,
+    stencils: StencilsFrom<'_>,
+    points: &[Points<S>; 13],
+    way: Points<S>,
+) -> Lanes<S> {
+    let arm = |to: usize| Arm::new(points[0], points[to]);
+    let arms = [arm(1), arm(2), arm(3), arm(4)];
+    let mut work = Lanes::of(simd, 0.0);
+    for (arm, [pull, _]) in arms.iter().zip(tensions(simd, fabric, stencils, &arms)) {
+        work = work + pull * arm.unit.dot(way);
+    }
+    work
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{
-        fabric::{Curve, Tension},
-        forces::{Laws, PLACES, Sheet, Stencil, Stencils},
-        lanes::{OneByOne, WIDEST, WithSimd, widest},
-        lattice::{Lattice, Outline, sample::cut},
-        math::{Mat3, Vec3},
-        scene::fabric,
-    };
-    use std::collections::BTreeMap;
-
-    /// The pulls on every node of a lattice, in its order.
-    struct Pulls<'a> {
-        lattice: &'a Lattice,
-        sheet: &'a Sheet<'a>,
-        at: &'a [Vec3],
-    }
-
-    impl WithSimd for Pulls<'_> {
-        type Output = Vec<(Vec3, Mat3)>;
-
-        #[inline(always)]
-        fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-            let Self { lattice, sheet, at } = self;
-            let numbered = (0_usize..).zip(&lattice.grid);
-            let number: BTreeMap<_, _> = numbered.map(|(node, place)| (*place, node)).collect();
-            let nodes: Vec<usize> = (0..at.len()).collect();
-            let mut all = Vec::new();
-            for nodes in nodes.chunks(Lanes::<S>::COUNT) {
-                let own: Vec<Stencil> = nodes
-                    .iter()
-                    .map(|node| sheet.stencil(*node, &lattice.grid))
-                    .collect();
-                let points = PLACES.map(|[i, j]| {
-                    let point = |node: &usize| {
-                        let [a, b] = lattice.grid[*node];
-                        number
-                            .get(&[a + i, b + j])
-                            .map_or(Vec3::zeros(), |n| at[*n])
-                    };
-                    Points([0, 1, 2].map(|axis| {
-                        let mut numbers = [0.0; WIDEST];
-                        for (slot, node) in numbers.iter_mut().zip(nodes) {
-                            *slot = point(node)[axis];
-                        }
-                        Lanes::read(simd, &numbers)
-                    }))
-                });
-                let stencils = Stencils::mixed(own.iter());
-                let (force, block) =
-                    pulls::<S, true>(simd, sheet.fabric(), stencils.from(0), &points);
-                let read = |lanes: Lanes<S>| {
-                    let mut numbers = [0.0; WIDEST];
-                    lanes.write(&mut numbers);
-                    numbers
-                };
-                let (force, block) = (force.0.map(read), block.0.map(read));
-                for k in 0..nodes.len() {
-                    let [xx, yy, zz, xy, xz, yz] = block.map(|numbers| numbers[k]);
-                    all.push((
-                        Vec3::from_fn(|axis, _| force[axis][k]),
-                        Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
-                    ));
-                }
-            }
-            all
-        }
-    }
-
-    /// A shape up to this part of a pitch away from flat, and not the same twice.
-    fn shaken(lattice: &Lattice, by: f64) -> Vec<Vec3> {
-        let wave = |k: usize, axis: usize| libm::sin(1.0 + (7 * k + 3 * axis) as f64 * 1.7);
-        let nodes = lattice.coordinates.iter().enumerate();
-        nodes
-            .map(|(k, at)| {
-                let off = Vec3::from_fn(|axis, _| wave(k, axis));
-                Vec3::new(at.x, at.y, 0.0) + off * (by * lattice.pitch)
-            })
-            .collect()
-    }
-
-    #[test]
-    fn nodes_side_by_side_bear_what_each_bears_alone() {
-        let towel = || Outline::rectangle(9.0, 7.0).unwrap();
-        let lattices = [
-            cut(towel(), 0.0, 1.0),
-            cut(towel(), 35.0, 0.7),
-            cut(Outline::disc(4.6).unwrap(), 17.0, 0.8),
-        ];
-        let mut curved = fabric("d").unwrap();
-        let curve = Curve::new(&[[0.0, 0.0], [0.01, 2.1], [0.05, 60.0]]).unwrap();
-        curved.warp.tension = Tension::Points(curve);
-        curved.weft.tension = Tension::Linear { modulus: 370.0 };
-        let mut twisting = fabric("c").unwrap();
-        twisting.twist = 0.07;
-        let fabrics = [fabric("a").unwrap(), fabric("c").unwrap(), curved, twisting];
-        for fabric in fabrics {
-            for lattice in &lattices {
-                // Each law alone, and all; from nearly flat to folded over.
-                for (law, by) in (0..16).map(|k| (k / 4, [1e-4, 0.02, 0.4, 0.9][k % 4])) {
-                    let laws = Laws {
-                        tension: law % 4 == 0 || law == 3,
-                        bending: law == 1 || law == 3,
-                        shear: law == 2 || law == 3,
-                    };
-                    let sheet = Sheet::new(lattice, &fabric, laws, &[]);
-                    let at = shaken(lattice, by);
-                    let pulls = |()| Pulls {
-                        lattice,
-                        sheet: &sheet,
-                        at: &at,
-                    };
-                    let found = widest(pulls(()));
-                    assert_eq!(found, pulls(()).with_simd(OneByOne));
-                    for (node, (force, block)) in found.iter().enumerate() {
-                        let expected = sheet.pull(node, &at);
-                        let error = (force - expected.force).norm();
-                        let most = block.norm().max(expected.stiffness.norm()) * lattice.pitch;
-                        assert!(
-                            error <= 1e-8 * most,
-                            "{laws:?} {by} {node}: {error} of {most}"
-                        );
-                        let least = block.symmetric_eigenvalues().min();
-                        assert!(least >= -1e-9 * block.norm(), "{by} {node}: {least}");
-                    }
-                }
-            }
-        }
-    }
-}
+mod tests;

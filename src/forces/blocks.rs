@@ -32,6 +32,14 @@ impl<S: Simd> Blocks<S> {
         }
     }
 
+    /// `v·A·v`.
+    #[inline(always)]
+    pub(crate) fn square_of(&self, v: Points<S>) -> Lanes<S> {
+        let [xx, yy, zz, xy, xz, yz] = self.0;
+        let [x, y, z] = v.0;
+        x * (xx * x + (xy * y + xz * z) * 2.0) + y * (yy * y + yz * z * 2.0) + zz * (z * z)
+    }
+
     /// The points that these blocks, positive definite, take to `force`: by Cramer's rule.
     #[inline(always)]
     pub(crate) fn solve(&self, force: Points<S>) -> Points<S> {

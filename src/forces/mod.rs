@@ -12,11 +12,12 @@ mod momentum;
 mod paper;
 mod rod;
 mod roles;
+mod series;
 mod sheet;
 mod stencil;
 mod twist;
 
-pub(crate) use abreast::pulls;
+pub(crate) use abreast::{pulls, work_of_rods};
 pub use angle::{
     Turn, TurnStiffness, angle_between, turn, turn_stiffness, turn_stiffness_positive,
 };

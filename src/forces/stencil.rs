@@ -60,6 +60,7 @@ impl Stencil {
     pub(crate) const STILL: Self = {
         let mut numbers = [0.0; SIZE];
         numbers[WEIGHT] = 1.0;
+        numbers[ON_GRAIN] = 1.0;
         Self(numbers)
     };
 
@@ -68,7 +69,6 @@ impl Stencil {
         let mut stencil = Self::STILL;
         stencil.0[MOVES] = 1.0;
         stencil.0[WEIGHT] = weight;
-        stencil.0[ON_GRAIN] = 1.0;
         stencil
     }
 

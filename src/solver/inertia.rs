@@ -228,6 +228,6 @@ fn judge(from: &[Vec3], begun: &[Vec3], to: &[Vec3]) -> (f64, bool) {
     let against = threads::sum(to.len(), |node| {
         (begun[node] - to[node]).dot(&(to[node] - from[node]))
     });
-    let moves = to.iter().zip(from).map(|(to, from)| (to - from).norm());
-    (moves.fold(0.0, f64::max), against > 0.0)
+    let longest = threads::most(to.len(), |node| (to[node] - from[node]).norm());
+    (longest, against > 0.0)
 }

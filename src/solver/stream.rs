@@ -1,10 +1,10 @@
 //! The nodes of a lattice in the order in which sweeps read them: so that nodes of one colour stand
 //! side by side in memory, and so do their neighbours of each kind.
 //!
-//! A row of the grid is stored as five lists, by `i mod 5`. The nodes of one colour
-//! `(i + 2j) mod 5` are one list of each row, and the neighbours in any one direction are a list
-//! too, moved by at most one place. Rows and lists have margins, so no index needs a check; places
-//! without a node have the stencil of one that is still.
+//! A row of the grid is stored as five lists, by `i mod 5`, of each coordinate. The nodes of one
+//! colour `(i + 2j) mod 5` are one list of each row, and the neighbours in any one direction are a
+//! list too, moved by at most one place. Rows and lists have margins, so no index needs a check;
+//! places without a node have the stencil of one that is still.
 
 use crate::{
     forces::{PLACES, Sheet, Stencil, Stencils, StencilsFrom},
@@ -28,17 +28,17 @@ pub(super) struct Stream {
     list: usize,
     /// Rows without the margins.
     rows: usize,
-    /// Coordinates of all places [cm].
-    pub(super) axes: [Vec<f64>; 3],
-    /// Place of each node.
+    /// Coordinates of all places [cm]: of each row x, then y, then z.
+    at: Vec<f64>,
+    /// What was last asked for, in the same order, without the rows of the margins.
+    answers: Vec<f64>,
+    /// Place of each node: where its x stands.
     place: Vec<u32>,
-    /// Node of each place.
+    /// Node of each place of a row without the margins, row by row.
     node: Vec<u32>,
     /// For every eight places of a list, which of the patterns acts there.
     pattern: Vec<u32>,
     patterns: Vec<Stencils>,
-    /// Where the nodes of one colour go, row by row.
-    next: Vec<f64>,
 }
 
 impl Stream {
@@ -50,25 +50,27 @@ impl Stream {
         let wide = (most(0) - first[0] + 1) as usize;
         let rows = (most(1) - first[1] + 1) as usize;
         let list = wide.div_ceil(COLOURS).next_multiple_of(WIDEST) + 2;
-        let places = (rows + 2 * MARGIN) * COLOURS * list;
-        let place_of = |at: &[i32; 2]| {
+        let all = rows * COLOURS * list;
+        let wide = 3 * COLOURS * list;
+        let spot_of = |at: &[i32; 2]| {
             let [i, j] = [(at[0] - first[0]) as usize, (at[1] - first[1]) as usize];
-            (((j + MARGIN) * COLOURS + i % COLOURS) * list + i / COLOURS + 1) as u32
+            [j, (i % COLOURS) * list + i / COLOURS + 1]
         };
-        let place: Vec<u32> = lattice.grid.iter().map(place_of).collect();
-        let mut node = vec![NONE; places];
-        for (number, place) in (0..).zip(&place) {
-            node[*place as usize] = number;
+        let mut place = Vec::with_capacity(lattice.grid.len());
+        let mut node = vec![NONE; all];
+        for (number, [row, spot]) in (0..).zip(lattice.grid.iter().map(spot_of)) {
+            node[row * COLOURS * list + spot] = number;
+            place.push(((row + MARGIN) * wide + spot) as u32);
         }
         let mut stream = Self {
             list,
             rows,
-            axes: [0; 3].map(|_| vec![0.0; places]),
+            at: vec![0.0; (rows + 2 * MARGIN) * wide],
+            answers: vec![0.0; 3 * all],
             place,
             node,
             pattern: Vec::new(),
             patterns: vec![Stencils::alike(&Stencil::STILL)],
-            next: vec![0.0; rows * 3 * (list - 2)],
         };
         stream.find_patterns(|node| (!held[node]).then(|| sheet.stencil(node, &lattice.grid)));
         stream
@@ -81,8 +83,7 @@ impl Stream {
         let mut known = BTreeMap::from([([0; WIDEST], 0)]);
         for row in 0..self.rows {
             for colour in 0..COLOURS {
-                let first = self.first(row, colour);
-                let nodes = &self.node[first..first + self.list - 2];
+                let nodes = self.nodes(row, colour).to_vec();
                 for eight in nodes.chunks_exact(WIDEST) {
                     let mut pattern = [0; WIDEST];
                     for (kind, node) in pattern.iter_mut().zip(eight) {
@@ -110,71 +111,127 @@ impl Stream {
 
     /// Takes positions in [cm].
     pub(super) fn load(&mut self, at: &[Vec3]) {
-        for (place, at) in self.place.iter().zip(at) {
-            for (axis, numbers) in self.axes.iter_mut().enumerate() {
-                numbers[*place as usize] = at[axis];
+        let (wide, row_of_nodes) = (self.wide(), COLOURS * self.list);
+        let within = MARGIN * wide..(MARGIN + self.rows) * wide;
+        let nodes = &self.node;
+        threads::for_each_row(&mut self.at[within], wide, |row, to| {
+            let nodes = &nodes[row * row_of_nodes..][..row_of_nodes];
+            for (spot, node) in nodes.iter().enumerate() {
+                if let Some(at) = at.get(*node as usize) {
+                    for axis in 0..3 {
+                        to[axis * row_of_nodes + spot] = at[axis];
+                    }
+                }
             }
-        }
+        });
+    }
+
+    /// Where the nodes are [cm].
+    pub(super) fn positions(&self) -> Vec<Vec3> {
+        self.gather(&self.at, 0)
+    }
+
+    /// What was last asked for of each node.
+    pub(super) fn answers(&self) -> Vec<Vec3> {
+        self.gather(&self.answers, MARGIN * self.wide())
+    }
+
+    /// What stands at the nodes' places in a list that begins at one of them.
+    fn gather(&self, numbers: &[f64], begins: usize) -> Vec<Vec3> {
+        let coordinate = COLOURS * self.list;
+        threads::map(self.place.len(), |node| {
+            let place = self.place[node] as usize - begins;
+            Vec3::from_fn(|axis, _| numbers[place + axis * coordinate])
+        })
     }
 
     /// The points at a place and after it.
     #[inline(always)]
     fn read<S: Simd>(&self, simd: S, place: usize) -> Points<S> {
-        let [x, y, z] = &self.axes;
+        let coordinate = COLOURS * self.list;
         Points([
-            Lanes::read(simd, &x[place..]),
-            Lanes::read(simd, &y[place..]),
-            Lanes::read(simd, &z[place..]),
+            Lanes::read(simd, &self.at[place..]),
+            Lanes::read(simd, &self.at[place + coordinate..]),
+            Lanes::read(simd, &self.at[place + 2 * coordinate..]),
         ])
     }
 
-    /// Finds the answers for all nodes of a colour.
-    pub(super) fn ask<A: Aim>(&mut self, aim: &A, colour: usize) {
-        let mut next = core::mem::take(&mut self.next);
+    /// Finds the answers for all nodes of some colours.
+    pub(super) fn ask<A: Aim>(&mut self, aim: &A, colours: core::ops::Range<usize>) {
+        let mut answers = core::mem::take(&mut self.answers);
         let stream = &*self;
-        threads::for_each_row(&mut next, 3 * (stream.list - 2), |row, to| {
-            widest(Row {
-                aim,
-                stream,
-                row,
-                colour,
-                to,
-            });
+        threads::for_each_row(&mut answers, self.wide(), |row, to| {
+            for colour in colours.clone() {
+                widest(Row {
+                    aim,
+                    stream,
+                    row,
+                    colour,
+                    to,
+                });
+            }
         });
-        self.next = next;
+        self.answers = answers;
     }
 
-    /// Hands out what was last asked for, with each node's number and place.
-    pub(super) fn each_answer(&self, colour: usize, mut take: impl FnMut(usize, usize, Vec3)) {
-        let width = self.list - 2;
-        for (row, to) in self.next.chunks_exact(3 * width).enumerate() {
+    /// Moves the nodes of a colour to what was last asked for.
+    pub(super) fn go(&mut self, colour: usize) {
+        let (wide, width) = (self.wide(), self.list - 2);
+        let within = MARGIN * wide..(MARGIN + self.rows) * wide;
+        let (list, answers) = (self.list, &self.answers);
+        threads::for_each_row(&mut self.at[within], wide, |row, to| {
+            for axis in 0..3 {
+                let first = (axis * COLOURS + list_of(row, colour)) * list + 1;
+                to[first..first + width].copy_from_slice(&answers[row * wide + first..][..width]);
+            }
+        });
+    }
+
+    /// Hands out where the nodes of a colour are [cm].
+    pub(super) fn each(&self, colour: usize, mut take: impl FnMut(usize, Vec3)) {
+        let coordinate = COLOURS * self.list;
+        for row in 0..self.rows {
             let first = self.first(row, colour);
-            for k in 0..width {
-                let node = self.node[first + k];
-                if node != NONE {
-                    let answer = Vec3::new(to[k], to[width + k], to[2 * width + k]);
-                    take(node as usize, first + k, answer);
+            for (k, node) in self.nodes(row, colour).iter().enumerate() {
+                if *node != NONE {
+                    let at = |axis, _| self.at[first + k + axis * coordinate];
+                    take(*node as usize, Vec3::from_fn(at));
                 }
             }
         }
     }
 
+    /// Numbers in a row: three coordinates of all places.
+    fn wide(&self) -> usize {
+        3 * COLOURS * self.list
+    }
+
+    /// The nodes of a row's list of one colour.
+    fn nodes(&self, row: usize, colour: usize) -> &[u32] {
+        let first = (row * COLOURS + list_of(row, colour)) * self.list + 1;
+        &self.node[first..first + self.list - 2]
+    }
+
     /// The first place of a row's list of one colour.
     fn first(&self, row: usize, colour: usize) -> usize {
-        let list = (colour + 3 * (row % COLOURS)) % COLOURS;
-        ((row + MARGIN) * COLOURS + list) * self.list + 1
+        (row + MARGIN) * self.wide() + list_of(row, colour) * self.list + 1
     }
 
     /// How far from a place of this list each of the thirteen points stands.
     fn ways(&self, row: usize, colour: usize) -> [isize; 13] {
-        let own = ((colour + 3 * (row % COLOURS)) % COLOURS) as isize;
+        let own = list_of(row, colour) as isize;
         let (list, colours) = (self.list as isize, COLOURS as isize);
         PLACES.map(|[along, across]| {
             let to = own + along as isize;
-            let lists = across as isize * colours + to.rem_euclid(colours) - own;
+            let lists = across as isize * 3 * colours + to.rem_euclid(colours) - own;
             lists * list + to.div_euclid(colours)
         })
     }
+}
+
+/// Which list of a row has the nodes of a colour.
+fn list_of(row: usize, colour: usize) -> usize {
+    (colour + 3 * (row % COLOURS)) % COLOURS
 }
 
 /// What is asked about the nodes of a list.
@@ -197,7 +254,7 @@ struct Row<'a, A> {
     stream: &'a Stream,
     row: usize,
     colour: usize,
-    /// The answers: all x, all y, all z.
+    /// The row's answers.
     to: &'a mut [f64],
 }
 
@@ -214,26 +271,41 @@ impl<A: Aim> WithSimd for Row<'_, A> {
             to,
         } = self;
         let first = stream.first(row, colour);
+        let first_answer = list_of(row, colour) * stream.list + 1;
         let ways = stream.ways(row, colour);
-        let width = stream.list - 2;
+        let nodes = stream.nodes(row, colour);
+        let width = nodes.len();
         let eights = width / WIDEST;
         let patterns = &stream.pattern[(row * COLOURS + colour) * eights..][..eights];
         for start in (0..width).step_by(Lanes::<S>::COUNT) {
             let pattern = patterns[start / WIDEST];
             let place = first + start;
-            let mut points = [stream.read(simd, place); 13];
             let answer = if pattern == 0 {
-                aim.still(points[0])
+                aim.still(stream.read(simd, place))
             } else {
-                for (point, way) in points.iter_mut().zip(&ways) {
-                    *point = stream.read(simd, (place as isize + way) as usize);
-                }
-                let nodes = &stream.node[place..place + Lanes::<S>::COUNT];
+                let at = |k: usize| stream.read(simd, (place as isize + ways[k]) as usize);
+                let mut points = [
+                    at(0),
+                    at(1),
+                    at(2),
+                    at(3),
+                    at(4),
+                    at(5),
+                    at(6),
+                    at(7),
+                    at(8),
+                    at(9),
+                    at(10),
+                    at(11),
+                    at(12),
+                ];
+                let nodes = &nodes[start..start + Lanes::<S>::COUNT];
                 let stencils = stream.patterns[pattern as usize].from(start % WIDEST);
                 aim.of(simd, nodes, stencils, &mut points)
             };
             for (axis, numbers) in answer.0.into_iter().enumerate() {
-                numbers.write(&mut to[axis * width + start..]);
+                let coordinate = axis * COLOURS * stream.list;
+                numbers.write(&mut to[first_answer + start + coordinate..]);
             }
         }
     }

@@ -8,9 +8,10 @@ use super::{
 };
 use crate::{
     fabric::Fabric,
-    forces::{Blocks, StencilsFrom, pulls},
+    forces::{Blocks, StencilsFrom, pulls, work_of_rods},
     lanes::{Lanes, Points, Simd, WIDEST},
     math::{Mat3, Vec3},
+    threads,
 };
 
 /// A move longer than this part of a pitch is checked against the force where it ends.
@@ -22,22 +23,27 @@ impl Level<'_> {
     /// Visits every free node once, colour by colour. Returns the longest move [cm].
     pub(super) fn stream_sweep(&mut self) -> f64 {
         let mut stream = self.loaded();
-        let mut longest = 0.0;
+        // Touches and vices ask where other nodes are meanwhile.
+        let watched = !self.bodies.parts().is_empty() || self.vices.contains(&true);
+        let begun = if watched { self.at.clone() } else { Vec::new() };
         for colour in 0..COLOURS {
-            longest = self.visit_colour(&mut stream, colour, longest);
+            stream.ask(&Goals(self), colour..colour + 1);
+            stream.go(colour);
+            if watched {
+                stream.each(colour, |node, there| self.at[node] = there);
+            }
         }
+        let last = core::mem::replace(&mut self.at, stream.positions());
         self.stream = Some(stream);
-        longest
+        let (from, at) = (if watched { &begun } else { &last }, &self.at);
+        threads::most(at.len(), |node| (at[node] - from[node]).norm())
     }
 
     /// The cloth's and the weight's forces on every node at once [gf].
     fn stream_forces(&mut self) -> Vec<Vec3> {
         let mut stream = self.loaded();
-        let mut forces = vec![Vec3::zeros(); self.at.len()];
-        for colour in 0..COLOURS {
-            stream.ask(&Pulls(self.sheet.fabric()), colour);
-            stream.each_answer(colour, |node, _, force| forces[node] = force);
-        }
+        stream.ask(&Pulls(self.sheet.fabric()), 0..COLOURS);
+        let forces = stream.answers();
         self.stream = Some(stream);
         forces
     }
@@ -49,23 +55,6 @@ impl Level<'_> {
             stream.unwrap_or_else(|| Box::new(Stream::new(self.lattice, &self.sheet, &self.held)));
         stream.load(&self.at);
         stream
-    }
-
-    /// Visits the nodes of a colour. Returns the longest move [cm], or `longest`.
-    fn visit_colour(&mut self, stream: &mut Stream, colour: usize, longest: f64) -> f64 {
-        stream.ask(&Goals(self), colour);
-        let mut longest = longest;
-        let mut axes = core::mem::take(&mut stream.axes);
-        stream.each_answer(colour, |node, place, there| {
-            let here = &mut self.at[node];
-            longest = f64::max(longest, (there - *here).norm());
-            *here = there;
-            for (axis, numbers) in axes.iter_mut().enumerate() {
-                numbers[place] = there[axis];
-            }
-        });
-        stream.axes = axes;
-        longest
     }
 }
 
@@ -129,8 +118,9 @@ impl Visit<'_> {
     fn go<S: Simd>(&self, simd: S, points: &mut [Points<S>; 13]) -> Points<S> {
         let level = self.level;
         let here = points[0];
-        let (mut force, mut blocks) =
-            pulls::<S, true>(simd, level.sheet.fabric(), self.stencils, points);
+        let fabric = level.sheet.fabric();
+        let (mut force, mut blocks, rods) = pulls::<S, true>(simd, fabric, self.stencils, points);
+        let (own_force, own_blocks) = (force, blocks);
         let meets = self.nodes.iter().any(|node| level.meets_more(*node));
         if meets {
             self.add_others(simd, &mut force, &mut blocks);
@@ -144,13 +134,14 @@ impl Visit<'_> {
         let checked = Lanes::of(simd, CHECKED * pitch).less_than(way.norm());
         if checked.anywhere() {
             points[0] = here + way;
-            let (mut after, _) =
-                pulls::<S, false>(simd, level.sheet.fabric(), self.stencils, points);
+            // Tension is what turns round within a move; all else is near enough by its stiffness.
+            let mut after = own_force.dot(way) - own_blocks.square_of(way) - rods.along(way)
+                + work_of_rods(simd, fabric, self.stencils, points, way);
             if meets {
-                self.add_forces_after(simd, &mut after, way);
+                after = after + self.others_after(simd, way).dot(way);
             }
             // Only those, since which others stand beside them must not matter.
-            let part = reached(force.dot(way), after.dot(way));
+            let part = reached(force.dot(way), after);
             way = way * checked.choose(part, Lanes::of(simd, 1.0));
         }
         let there = here + way;
@@ -191,7 +182,7 @@ impl Visit<'_> {
 
     /// The same forces after a way [cm].
     #[inline(never)]
-    fn add_forces_after<S: Simd>(&self, simd: S, force: &mut Points<S>, way: Points<S>) {
+    fn others_after<S: Simd>(&self, simd: S, way: Points<S>) -> Points<S> {
         let ways = numbers_of(way);
         let mut numbers = [[0.0; WIDEST]; 3];
         for (k, node) in self.nodes.iter().enumerate() {
@@ -203,9 +194,7 @@ impl Visit<'_> {
                 }
             }
         }
-        for (sum, numbers) in force.0.iter_mut().zip(&numbers) {
-            *sum = *sum + Lanes::read(simd, numbers);
-        }
+        Points(numbers.map(|numbers| Lanes::read(simd, &numbers)))
     }
 
     /// As far as bodies leave free.
