@@ -216,3 +216,17 @@ fn direction([along, across]: [i32; 2]) -> usize {
         _ => 3,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empty_place_takes_no_one_off_the_grain_and_an_angle_at_rest_does() {
+        let on = Stencil::of_weight(0.1);
+        assert!(Stencils::mixed([on, Stencil::STILL].iter()).on_grain);
+        let mut bent = on;
+        bent.add_bend(Yarn::Warp, [1, 0], 1.0, 0.3);
+        assert!(!Stencils::mixed([on, bent].iter()).on_grain);
+    }
+}
