@@ -96,14 +96,13 @@ impl Tension {
                 exponents[k] = *b;
             }
         }
-        if exponents != [0.0; N] {
+        if laws.iter().any(|law| matches!(law, Self::Power { .. })) {
             powers = Lanes::powers(powers, exponents);
         }
         let mut answers = [(strains[0], strains[0]); N];
         for k in 0..N {
             let simd = strains[k].kind();
             let (modulus, growth) = match laws[k] {
-                Self::Power { a, b } if *b == 0.0 => (Lanes::of(simd, *a), 1.0),
                 Self::Power { a, b } => (powers[k] * *a, b + 1.0),
                 Self::Linear { modulus } => (Lanes::of(simd, *modulus), 1.0),
                 Self::Points(_) => {

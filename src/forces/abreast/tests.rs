@@ -1,4 +1,4 @@
-//! Nodes side by side against [`Sheet::pull`], node by node.
+//! Nodes side by side against [`Sheet::pull`](crate::forces::Sheet::pull), node by node.
 
 use super::*;
 use crate::{
@@ -18,8 +18,22 @@ struct Pulls<'a> {
     at: &'a [Vec3],
 }
 
+/// What is found for a node.
+#[derive(Debug, PartialEq)]
+struct Found {
+    force: Vec3,
+    block: Mat3,
+    /// The force as it is found without the block.
+    force_alone: Vec3,
+    /// What its rods do where [`WAY`] ends, and what they would by their stiffness; and `WAY·block·WAY`.
+    works: [f64; 3],
+}
+
+/// A move of the node [cm].
+const WAY: [f64; 3] = [0.01, -0.02, 0.015];
+
 impl WithSimd for Pulls<'_> {
-    type Output = Vec<(Vec3, Mat3)>;
+    type Output = Vec<Found>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
@@ -33,7 +47,7 @@ impl WithSimd for Pulls<'_> {
                 .iter()
                 .map(|node| sheet.stencil(*node, &lattice.grid))
                 .collect();
-            let points = PLACES.map(|[i, j]| {
+            let mut points = PLACES.map(|[i, j]| {
                 let point = |node: &usize| {
                     let [a, b] = lattice.grid[*node];
                     number
@@ -49,20 +63,31 @@ impl WithSimd for Pulls<'_> {
                 }))
             });
             let stencils = Stencils::mixed(own.iter());
-            let (force, block, _) =
-                pulls::<S, true>(simd, sheet.fabric(), stencils.from(0), &points);
+            let (fabric, from) = (sheet.fabric(), stencils.from(0));
+            let (force, block, rods) = pulls::<S, true>(simd, fabric, from, &points);
+            let (force_alone, _, _) = pulls::<S, false>(simd, fabric, from, &points);
+            let way = Points(WAY.map(|number| Lanes::of(simd, number)));
+            points[0] = points[0] + way;
+            let works = [
+                work_of_rods(simd, fabric, from, &points, way),
+                rods.along(way),
+                block.square_of(way),
+            ];
             let read = |lanes: Lanes<S>| {
                 let mut numbers = [0.0; WIDEST];
                 lanes.write(&mut numbers);
                 numbers
             };
-            let (force, block) = (force.0.map(read), block.0.map(read));
+            let (force, force_alone) = (force.0.map(read), force_alone.0.map(read));
+            let (block, works) = (block.0.map(read), works.map(read));
             for k in 0..nodes.len() {
                 let [xx, yy, zz, xy, xz, yz] = block.map(|numbers| numbers[k]);
-                all.push((
-                    Vec3::from_fn(|axis, _| force[axis][k]),
-                    Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
-                ));
+                all.push(Found {
+                    force: Vec3::from_fn(|axis, _| force[axis][k]),
+                    block: Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
+                    force_alone: Vec3::from_fn(|axis, _| force_alone[axis][k]),
+                    works: works.map(|numbers| numbers[k]),
+                });
             }
         }
         all
@@ -114,7 +139,8 @@ fn nodes_side_by_side_bear_what_each_bears_alone() {
                 };
                 let found = widest(pulls(()));
                 assert_eq!(found, pulls(()).with_simd(OneByOne));
-                for (node, (force, block)) in found.iter().enumerate() {
+                for (node, found) in found.iter().enumerate() {
+                    let Found { force, block, .. } = found;
                     let expected = sheet.pull(node, &at);
                     let error = (force - expected.force).norm();
                     let most = block.norm().max(expected.stiffness.norm()) * lattice.pitch;
@@ -122,9 +148,44 @@ fn nodes_side_by_side_bear_what_each_bears_alone() {
                         error <= 1e-8 * most,
                         "{laws:?} {by} {node}: {error} of {most}"
                     );
+                    let error = (force - found.force_alone).norm();
+                    assert!(error <= 1e-12 * most, "{laws:?} {by} {node}: {error}");
                     let least = block.symmetric_eigenvalues().min();
                     assert!(least >= -1e-9 * block.norm(), "{by} {node}: {least}");
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn rods_alone_do_what_all_does_where_nothing_else_acts() {
+    let lattice = cut(Outline::disc(4.6).unwrap(), 17.0, 0.8);
+    let way = Vec3::from(WAY);
+    let laws = Laws {
+        tension: true,
+        bending: false,
+        shear: false,
+    };
+    for fabric in [fabric("a").unwrap(), fabric("c").unwrap()] {
+        let sheet = Sheet::new(&lattice, &fabric, laws, &[]);
+        let at = shaken(&lattice, 0.02);
+        let found = widest(Pulls {
+            lattice: &lattice,
+            sheet: &sheet,
+            at: &at,
+        });
+        for (node, found) in found.iter().enumerate() {
+            let weighs = sheet.measures()[node] * way.z;
+            let mut moved = at.clone();
+            moved[node] += way;
+            let at_end = sheet.pull(node, &moved).force.dot(&way) + weighs;
+            let square = way.dot(&(found.block * way));
+            let by_stiffness = found.force.dot(&way) + weighs - square;
+            let most = found.block.norm() * way.norm_squared() + at_end.abs();
+            for (found, expected) in found.works.iter().zip([at_end, by_stiffness, square]) {
+                let error = (found - expected).abs();
+                assert!(error <= 1e-9 * most, "{node}: {found} for {expected}");
             }
         }
     }
