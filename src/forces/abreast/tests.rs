@@ -67,7 +67,7 @@ impl WithSimd for Pulls<'_> {
             let (force, block, rods) = pulls::<S, true>(simd, fabric, from, &points);
             let (force_alone, _, _) = pulls::<S, false>(simd, fabric, from, &points);
             let way = Points(WAY.map(|number| Lanes::of(simd, number)));
-            points[0] = points[0] + way;
+            points[0] += way;
             let works = [
                 work_of_rods(simd, fabric, from, &points, way),
                 rods.along(way),
