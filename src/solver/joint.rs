@@ -50,6 +50,11 @@ const DAMPED_MORE: usize = 12;
 /// A step is halved at most so often.
 const HALVINGS: usize = 8;
 
+/// Whether a level is small enough to be factored.
+pub(super) fn has_factors(level: &Level<'_>) -> bool {
+    level.at.len() <= MOST_FACTORED
+}
+
 /// The joint system and what was learnt of the steps it may ask for.
 #[derive(Debug)]
 pub(super) struct Joint {
@@ -144,10 +149,19 @@ impl Joint {
 
     /// The same with the nodes' damping.
     fn damped(&self, level: &Level<'_>, positive: bool) -> Stiffness {
+        self.damped_as(level, positive, |node| self.damping[node])
+    }
+
+    /// The same with each node's `damping` [1/cm].
+    fn damped_as(
+        &self,
+        level: &Level<'_>,
+        positive: bool,
+        damping: impl Fn(usize) -> f64,
+    ) -> Stiffness {
         let mut matrix = self.assembled(level, positive);
-        let weights = level.sheet.measures().iter().zip(&self.damping);
-        for (node, (weight, damping)) in weights.enumerate() {
-            matrix.add_own(node, &(Mat3::identity() * (weight * damping)));
+        for (node, weight) in level.sheet.measures().iter().enumerate() {
+            matrix.add_own(node, &(Mat3::identity() * (weight * damping(node))));
         }
         matrix
     }
@@ -249,17 +263,32 @@ impl Joint {
         Some((leader, answer))
     }
 
-    /// The exact stiffness by its factors: `None` where it is not positive definite, and so the shape
-    /// not known to be stable.
-    fn factored(&self, level: &Level<'_>, exact: &Stiffness) -> Option<Leader> {
-        if level.at.len() > MOST_FACTORED {
+    /// A stiffness by its factors: `None` where it is not positive definite; of the exact one, the shape
+    /// is not known to be stable then.
+    fn factored(&self, level: &Level<'_>, stiffness: &Stiffness) -> Option<Leader> {
+        if !has_factors(level) {
             return None;
         }
         let plan = self.plan.get_or_init(|| match &self.way {
             Way::Factors(plan) => Arc::clone(plan),
             Way::Levels(_) => plan_of(level, &self.pattern).into(),
         });
-        Leader::by_factors(plan, exact)
+        Leader::by_factors(plan, stiffness)
+    }
+
+    /// The exact stiffness by its factors, if it has them.
+    pub(super) fn exact_leader(&self, level: &Level<'_>) -> Option<Leader> {
+        self.factored(level, &self.assembled(level, false))
+    }
+
+    /// The stiffness without its negative directions by its factors, all nodes damped alike [1/cm].
+    pub(super) fn evenly_damped_leader(&self, level: &Level<'_>, damping: f64) -> Option<Leader> {
+        self.factored(level, &self.damped_as(level, true, |_| damping))
+    }
+
+    /// The exact stiffness, all nodes damped alike [1/cm].
+    pub(super) fn evenly_damped(&self, level: &Level<'_>, damping: f64) -> Packed<f64> {
+        self.packed(&self.damped_as(level, false, |_| damping))
     }
 
     /// Whether a joint step is trusted to go farther than the steps with inertia that could be taken

@@ -12,6 +12,7 @@ mod joint;
 mod leader;
 mod leap;
 mod level;
+mod march;
 mod model;
 mod moving;
 mod multigrid;

@@ -24,6 +24,9 @@ const NOTHING: f64 = 1e-10;
 /// The same where steps are cut short anyway: rounds at most, and what may be left.
 const FEW_ROUNDS: usize = 15;
 const NEARLY: f64 = 1e-2;
+/// And where what leads is near to the exact stiffness.
+const SOME_ROUNDS: usize = 30;
+const WELL: f64 = 1e-4;
 
 /// What a model answers.
 #[derive(Debug)]
@@ -96,6 +99,27 @@ pub(super) fn near_answer(
         Some(way) if found.rounds == 0 => way,
         _ => found.moves,
     }
+}
+
+/// Nearly the moves [cm] that answer `forces` [gf] by the `exact` stiffness, up to the trusted length
+/// `far` [cm]; where the search meets a direction in which the energy falls ever faster, it ends so far
+/// along that. Returns as well whether it met none.
+pub(super) fn trusted_answer(
+    leader: &Leader,
+    exact: &Packed<f64>,
+    forces: &[Vec3],
+    far: f64,
+) -> (Vec<Vec3>, bool) {
+    let limits = Limits {
+        rounds: SOME_ROUNDS,
+        left: WELL,
+        far,
+    };
+    let mut found = search(leader, exact, forces, &limits);
+    if let Some(way) = &found.way_out {
+        add(&mut found.moves, way, far / longest(way));
+    }
+    (found.moves, found.way_out.is_none())
 }
 
 /// What a search came to.
@@ -233,6 +257,27 @@ mod tests {
             panic!("it is longer");
         };
         assert!(dot(&moves, &forces()) > 0.0);
+    }
+
+    #[test]
+    fn a_trusted_answer_is_the_exact_one_or_goes_as_far_as_is_trusted_and_downhill() {
+        let energy = |moves: &[Vec3], exact: &Packed<f64>| {
+            0.5 * dot(moves, &exact.times(moves)) - dot(moves, &forces())
+        };
+        let (way, positive) = chain(0.02);
+        let leader = Leader::new(&way, &positive).unwrap();
+        let exact = packed(&chain(0.01).1);
+        let (moves, stable) = trusted_answer(&leader, &exact, &forces(), 1e6);
+        assert!(stable);
+        for (push, force) in exact.times(&moves).iter().zip(forces()) {
+            assert!((push - force).norm() < 0.1, "{push} {force}");
+        }
+        let far = 0.1 * longest(&moves);
+        let (moves, stable) = trusted_answer(&leader, &exact, &forces(), far);
+        assert!(stable && longest(&moves) >= far && energy(&moves, &exact) < 0.0);
+        let exact = packed(&chain(-0.02).1);
+        let (moves, stable) = trusted_answer(&leader, &exact, &forces(), 50.0);
+        assert!(!stable && energy(&moves, &exact) < 0.0);
     }
 
     #[test]

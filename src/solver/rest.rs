@@ -4,9 +4,10 @@ use super::{
     Progress, Settings,
     film::Film,
     inertia::Inertia,
-    joint::{Joint, Step},
+    joint::{Joint, Step, has_factors},
     leap::Leaps,
     level::Level,
+    march::March,
     model::longest,
     start::Start,
 };
@@ -206,7 +207,7 @@ impl Run<'_> {
         standing.remaining
     }
 
-    /// Goes on with inertia and by leaps while rest is not near, and tries a joint step.
+    /// Marches, or goes on with inertia and by leaps, while rest is not near, and tries a joint step.
     fn approach(
         &mut self,
         level: &mut Level<'_>,
@@ -215,7 +216,11 @@ impl Run<'_> {
         standing: &Standing,
     ) -> Option<Step> {
         let pitch = level.lattice.pitch;
-        if !standing.near && !approach.bold {
+        if let Some(march) = approach.march.as_mut().filter(|_| !standing.near) {
+            if !self.march(level, joint, march, standing) {
+                approach.march = None;
+            }
+        } else if !standing.near && !approach.bold {
             let steps = approach.patience as usize;
             self.glide(level, joint, &mut approach.inertia, standing, steps);
             approach.patience = (approach.patience * LATER_TRIES).min(RAREST_TRY);
@@ -342,17 +347,23 @@ pub(super) struct Approach {
     pub(super) leaps: Leaps,
     /// Whether bold joint steps are what takes it farthest.
     bold: bool,
+    /// How it marches, if it does.
+    march: Option<March>,
 }
 
 impl Approach {
     fn of(level: &Level<'_>, lands: bool) -> Self {
+        let pitch = level.lattice.pitch;
         let leaps = Leaps::of(level, lands);
-        let leaps_first = leaps.some(level.lattice.pitch);
+        let leaps_first = leaps.some(pitch);
+        // Hung cloth leaps farther. One that follows others' moves shall not leave the folds that it has.
+        let marches = lands && !leaps_first && has_factors(level);
         Self {
             inertia: Inertia::none(level),
             patience: if leaps_first { FIRST_LEAP } else { FIRST_TRY } as f64,
             leaps,
             bold: false,
+            march: marches.then(|| March::new(pitch)),
         }
     }
 }

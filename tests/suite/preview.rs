@@ -16,6 +16,14 @@ fn heights(coarse: &Settled, fine: &Settled) -> Vec<[f64; 2]> {
     nodes.map(pair).collect()
 }
 
+/// Work in updates of nodes: the factors of a joint step on n nodes take about as long as n^1.5 of them
+/// (docs/performance.md: 0.19 s for 16,641 nodes, at 0.11 µs an update).
+fn work(settled: &Settled) -> f64 {
+    let levels = settled.levels.iter();
+    let joint = levels.map(|level| level.joint_steps as f64 * (level.nodes as f64).powf(1.5));
+    settled.node_updates as f64 + joint.sum::<f64>()
+}
+
 /// Pearson's correlation.
 fn correlation(pairs: &[[f64; 2]]) -> f64 {
     let count = pairs.len() as f64;
@@ -37,7 +45,8 @@ fn a_preview_takes_a_tenth_of_the_work_and_stands_as_high_as_the_drape() {
         preview.problem = scene.problem.preview();
         let coarse = settled(&preview, &scene.settings, 900);
         assert!(coarse.converged, "{name}: {:?}", coarse.certificate);
-        assert!(10 * coarse.node_updates <= fine.node_updates, "{name}");
+        let [little, much] = [work(&coarse), work(fine)];
+        assert!(10.0 * little <= much, "{name}: {little} {much}");
         let likeness = correlation(&heights(&coarse, fine));
         // 0.987 is the least seen: the folds of twelve coarse rods are shallower.
         assert!(likeness > 0.98, "{name}: {likeness}");
