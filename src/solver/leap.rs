@@ -12,9 +12,11 @@ use super::{
 };
 use crate::math::Vec3;
 
-/// A leap is at first so many pitches long, and at most so many.
+/// A leap is at first so many pitches long, and at most so many or so far [cm], whichever is more: a cloth
+/// that is cut finer has as far to go from valley to valley.
 const FIRST: f64 = 0.5;
 const LONGEST: f64 = 2.0;
+const LONGEST_WAY: f64 = 2.0;
 /// After one that went well, the next may be so many times as long; after one that did not, it is this
 /// part of it.
 const LONGER: f64 = 1.5;
@@ -47,7 +49,7 @@ impl Leaps {
         let free = lands && level.bodies.parts().is_empty();
         Self {
             next: FIRST * pitch,
-            longest: if free { LONGEST * pitch } else { 0.0 },
+            longest: if free { farthest(pitch) } else { 0.0 },
         }
     }
 
@@ -60,6 +62,11 @@ impl Leaps {
     fn lengthen(&mut self, way: f64) {
         self.next = (LONGER * way).max(self.next).min(self.longest);
     }
+}
+
+/// The longest leap [cm] on a lattice of this pitch [cm].
+fn farthest(pitch: f64) -> f64 {
+    (LONGEST * pitch).max(LONGEST_WAY)
 }
 
 impl Run<'_> {
@@ -83,7 +90,7 @@ impl Run<'_> {
         leaps.next = leaps.next.clamp(SHORTEST * pitch, leaps.longest);
         'series: for _ in 0..LEAPS {
             joint.look(level, pitch);
-            let Some(moves) = joint.wish(level, LONGEST * pitch) else {
+            let Some(moves) = joint.wish(level, farthest(pitch)) else {
                 break;
             };
             if longest(&moves) < near {
