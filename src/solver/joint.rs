@@ -41,8 +41,8 @@ const STEPS_IN_TIME: f64 = 30.0;
 /// Most steps of a finish, and the move [cm] that ends it.
 const FINISHING: usize = 6;
 const FINISHED: f64 = 1e-5;
-/// Lattices of more nodes than this are not factored: it takes n^1.5 operations, and some 5 GB for as
-/// many.
+/// Lattices of more nodes than this are not factored: it takes n^1.5 operations, and 5 GB for
+/// 263,169.
 const MOST_FACTORED: usize = 300_000;
 /// Corrections after a joint step.
 const CORRECTIONS: usize = 3;
