@@ -1,27 +1,27 @@
 //! Dense Cholesky of the first columns of a front, panel by panel, in tiles that stay in registers.
 //!
 //! 1. The panel's own triangle is factored.
-//! 2. The rows below it are laid out in strips of eight, each solved with the triangle.
+//! 2. The rows below it are laid out in strips, as wide as the widest processor's lanes (eight numbers
+//!    of 64 bits, sixteen of 32), each solved with the triangle.
 //! 3. What the strips make with each other is taken off the columns after the panel.
 //!
 //! Every number is the sum of the same products in the same order whatever the machine: no fused
 //! multiply-add, no sum split over lanes. Strips and trailing columns may be shared out over cores.
 
+use super::number::Number;
 use crate::{
-    lanes::{Lanes, Simd, WIDEST, WithSimd, widest},
+    lanes::{Simd, WithSimd, widest},
     threads,
 };
 
 /// Columns that are factored before the rest of the front is updated with them.
 const PANEL: usize = 48;
-/// Rows of a strip, and side of a tile.
-const STRIP: usize = WIDEST;
 
 /// Factors the first `pivots` columns of a symmetric matrix (lower half, column-major, `order`
 /// rows) in place: on return they hold L, and the rest holds the Schur complement.
 ///
 /// `false` when a pivot is not positive: the matrix is not positive definite.
-pub(super) fn factor(matrix: &mut [f64], order: usize, pivots: usize) -> bool {
+pub(super) fn factor<T: Number>(matrix: &mut [T], order: usize, pivots: usize) -> bool {
     let mut start = 0;
     while start < pivots {
         let width = PANEL.min(pivots - start);
@@ -31,7 +31,7 @@ pub(super) fn factor(matrix: &mut [f64], order: usize, pivots: usize) -> bool {
         let below = start + width;
         let mut strips = pack(matrix, order, start, width);
         let triangle = triangle(matrix, order, start, width);
-        threads::for_each_chunk(&mut strips, width * STRIP, |_, strip| {
+        threads::for_each_chunk(&mut strips, width * T::WIDEST, |_, strip| {
             widest(Solve {
                 triangle: &triangle,
                 strip,
@@ -40,14 +40,14 @@ pub(super) fn factor(matrix: &mut [f64], order: usize, pivots: usize) -> bool {
         unpack(&strips, matrix, order, start, width);
         threads::for_each_chunk(
             &mut matrix[below * order..],
-            STRIP * order,
+            T::WIDEST * order,
             |block, columns| {
                 widest(Update {
                     columns,
                     order,
                     below,
                     block,
-                    size: width * STRIP,
+                    size: width * T::WIDEST,
                     strips: &strips,
                 });
             },
@@ -58,7 +58,7 @@ pub(super) fn factor(matrix: &mut [f64], order: usize, pivots: usize) -> bool {
 }
 
 /// Factors the rows and columns `start..start + width`.
-fn factor_triangle(matrix: &mut [f64], order: usize, start: usize, width: usize) -> bool {
+fn factor_triangle<T: Number>(matrix: &mut [T], order: usize, start: usize, width: usize) -> bool {
     let below = start + width;
     for column in start..below {
         let (before, here) = matrix.split_at_mut(column * order);
@@ -67,190 +67,195 @@ fn factor_triangle(matrix: &mut [f64], order: usize, start: usize, width: usize)
             let earlier = &earlier[column..below];
             let factor = earlier[0];
             for (entry, other) in here.iter_mut().zip(earlier) {
-                *entry -= factor * other;
+                *entry -= factor * *other;
             }
         }
-        let pivot = here[0];
+        let pivot = here[0].number();
         if pivot.is_nan() || pivot <= 0.0 {
             return false;
         }
-        let root = pivot.sqrt();
+        let root = here[0].root();
         here[0] = root;
         for entry in &mut here[1..] {
-            *entry /= root;
+            *entry = *entry / root;
         }
     }
     true
 }
 
 /// The rows of the panel's triangle one after the other, each up to its diagonal.
-fn triangle(matrix: &[f64], order: usize, start: usize, width: usize) -> Vec<f64> {
+fn triangle<T: Number>(matrix: &[T], order: usize, start: usize, width: usize) -> Vec<T> {
     let row = |k: usize| (0..=k).map(move |c| matrix[(start + c) * order + start + k]);
     (0..width).flat_map(row).collect()
 }
 
-/// The panel's rows below its triangle, eight at a time, so that a tile reads them in order; rows that
+/// The panel's rows below its triangle, strip by strip, so that a tile reads them in order; rows that
 /// the last strip lacks are 0.
-fn pack(matrix: &[f64], order: usize, start: usize, width: usize) -> Vec<f64> {
+fn pack<T: Number>(matrix: &[T], order: usize, start: usize, width: usize) -> Vec<T> {
     let below = start + width;
-    let size = width * STRIP;
-    let mut strips = vec![0.0; (order - below).div_ceil(STRIP) * size];
+    let size = width * T::WIDEST;
+    let mut strips = vec![T::default(); (order - below).div_ceil(T::WIDEST) * size];
     let columns = matrix[start * order..below * order].chunks_exact(order);
     for (k, column) in columns.enumerate() {
-        let rows = column[below..].chunks(STRIP);
+        let rows = column[below..].chunks(T::WIDEST);
         for (strip, rows) in strips.chunks_exact_mut(size).zip(rows) {
-            strip[k * STRIP..][..rows.len()].copy_from_slice(rows);
+            strip[k * T::WIDEST..][..rows.len()].copy_from_slice(rows);
         }
     }
     strips
 }
 
 /// The strips back in their places.
-fn unpack(strips: &[f64], matrix: &mut [f64], order: usize, start: usize, width: usize) {
+fn unpack<T: Number>(strips: &[T], matrix: &mut [T], order: usize, start: usize, width: usize) {
     let below = start + width;
     let columns = matrix[start * order..below * order].chunks_exact_mut(order);
     for (k, column) in columns.enumerate() {
-        let rows = column[below..].chunks_mut(STRIP);
-        for (strip, rows) in strips.chunks_exact(width * STRIP).zip(rows) {
-            rows.copy_from_slice(&strip[k * STRIP..][..rows.len()]);
+        let rows = column[below..].chunks_mut(T::WIDEST);
+        for (strip, rows) in strips.chunks_exact(width * T::WIDEST).zip(rows) {
+            rows.copy_from_slice(&strip[k * T::WIDEST..][..rows.len()]);
         }
     }
 }
 
 /// A strip of the rows below a triangle, to be solved with it.
-struct Solve<'a> {
+struct Solve<'a, T> {
     /// The triangle's rows, each up to its diagonal.
-    triangle: &'a [f64],
-    /// Eight numbers for each of its columns.
-    strip: &'a mut [f64],
+    triangle: &'a [T],
+    /// The strip's numbers for each of its columns.
+    strip: &'a mut [T],
 }
 
-impl WithSimd for Solve<'_> {
+impl<T: Number> WithSimd for Solve<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        match Lanes::<S>::COUNT {
-            8 => self.by::<S, 1>(simd),
-            4 => self.by::<S, 2>(simd),
-            2 => self.by::<S, 4>(simd),
-            _ => self.by::<S, 8>(simd),
+        match T::WIDEST / T::count::<S>() {
+            1 => self.by::<S, 1>(simd),
+            2 => self.by::<S, 2>(simd),
+            4 => self.by::<S, 4>(simd),
+            8 => self.by::<S, 8>(simd),
+            _ => self.by::<S, 16>(simd),
         }
     }
 }
 
-impl Solve<'_> {
-    /// By so many lanes for eight rows.
+impl<T: Number> Solve<'_, T> {
+    /// A strip's rows by so many lanes' full.
     #[inline(always)]
     fn by<S: Simd, const LANES: usize>(self, simd: S) {
         let mut row = self.triangle;
-        for column in 0..self.strip.len() / STRIP {
+        for column in 0..self.strip.len() / T::WIDEST {
             let (factors, rest) = row.split_at(column + 1);
             row = rest;
-            let (solved, here) = self.strip.split_at_mut(column * STRIP);
-            let mut sums = eight::<S, LANES>(simd, here);
-            for (eights, factor) in solved.chunks_exact(STRIP).zip(factors) {
-                let factor = Lanes::of(simd, *factor);
-                for (sum, other) in sums.iter_mut().zip(eight::<S, LANES>(simd, eights)) {
-                    *sum = *sum - factor * other;
+            let (solved, here) = self.strip.split_at_mut(column * T::WIDEST);
+            let mut sums = strip::<T, S, LANES>(simd, here);
+            for (rows, factor) in solved.chunks_exact(T::WIDEST).zip(factors) {
+                let factor = factor.each(simd);
+                for (sum, other) in sums.iter_mut().zip(strip::<T, S, LANES>(simd, rows)) {
+                    *sum = T::difference(simd, *sum, T::product(simd, factor, other));
                 }
             }
-            let root = Lanes::of(simd, factors[column]);
-            for (sum, to) in sums.iter().zip(here.chunks_exact_mut(Lanes::<S>::COUNT)) {
-                sum.over(root).write(to);
+            let root = factors[column].each(simd);
+            for (sum, to) in sums.iter().zip(here.chunks_exact_mut(T::count::<S>())) {
+                T::write(simd, T::quotient(simd, *sum, root), to);
             }
         }
     }
 }
 
-/// The columns of one block of eight after a panel, and the panel's strips.
-struct Update<'a> {
-    columns: &'a mut [f64],
+/// The columns of one block after a panel, as many as a strip has rows, and the panel's strips.
+struct Update<'a, T> {
+    columns: &'a mut [T],
     order: usize,
     /// First row and column below the panel.
     below: usize,
-    /// Which eight columns these are.
+    /// Which block of columns this is.
     block: usize,
     /// Numbers of a strip.
     size: usize,
-    strips: &'a [f64],
+    strips: &'a [T],
 }
 
-impl WithSimd for Update<'_> {
+impl<T: Number> WithSimd for Update<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        match Lanes::<S>::COUNT {
-            8 => self.by::<S, 1, 8>(simd),
-            4 => self.by::<S, 2, 4>(simd),
-            2 => self.by::<S, 4, 2>(simd),
-            _ => self.by::<S, 8, 1>(simd),
+        match T::WIDEST / T::count::<S>() {
+            1 => self.by::<S, 1, 8>(simd),
+            2 => self.by::<S, 2, 4>(simd),
+            4 => self.by::<S, 4, 2>(simd),
+            8 => self.by::<S, 8, 1>(simd),
+            _ => self.by::<S, 16, 1>(simd),
         }
     }
 }
 
-impl Update<'_> {
-    /// By tiles of eight rows, in so many lanes, and of so many columns.
+impl<T: Number> Update<'_, T> {
+    /// By tiles of a strip's rows, in so many lanes' full, and of so many columns.
     #[inline(always)]
     fn by<S: Simd, const LANES: usize, const WIDE: usize>(self, simd: S) {
         let across = &self.strips[self.block * self.size..][..self.size];
         let strips = self.strips.chunks_exact(self.size).enumerate();
         for (strip, down) in strips.skip(self.block) {
-            let top = self.below + strip * STRIP;
-            let rows = STRIP.min(self.order - top);
+            let top = self.below + strip * T::WIDEST;
+            let rows = T::WIDEST.min(self.order - top);
             let columns = self.columns.chunks_exact_mut(self.order);
             let mut columns = columns.map(|column| &mut column[top..top + rows]);
-            for first in (0..STRIP).step_by(WIDE) {
-                let tile = tile::<S, LANES, WIDE>(simd, down, across, first);
+            for first in (0..T::WIDEST).step_by(WIDE) {
+                let tile = tile::<T, S, LANES, WIDE>(simd, down, across, first);
                 for (sums, entries) in tile.iter().zip(columns.by_ref().take(WIDE)) {
-                    subtract(sums, entries);
+                    subtract::<T, S, LANES>(simd, sums, entries);
                 }
             }
         }
     }
 }
 
-/// The product of a strip's eight rows with some of the columns that another is of, by columns.
+/// The product of a strip's rows with some of the columns that another is of, by columns.
 #[inline(always)]
-fn tile<S: Simd, const LANES: usize, const WIDE: usize>(
+fn tile<T: Number, S: Simd, const LANES: usize, const WIDE: usize>(
     simd: S,
-    down: &[f64],
-    across: &[f64],
+    down: &[T],
+    across: &[T],
     first: usize,
-) -> [[Lanes<S>; LANES]; WIDE] {
-    let mut tile = [[Lanes::of(simd, 0.0); LANES]; WIDE];
-    for (down, across) in down.chunks_exact(STRIP).zip(across.chunks_exact(STRIP)) {
-        let rows = eight::<S, LANES>(simd, down);
+) -> [[T::Many<S>; LANES]; WIDE] {
+    let mut tile = [[T::default().each(simd); LANES]; WIDE];
+    let across = across.chunks_exact(T::WIDEST);
+    for (down, across) in down.chunks_exact(T::WIDEST).zip(across) {
+        let rows = strip::<T, S, LANES>(simd, down);
         for (sums, factor) in tile.iter_mut().zip(&across[first..first + WIDE]) {
-            let factor = Lanes::of(simd, *factor);
+            let factor = factor.each(simd);
             for (sum, row) in sums.iter_mut().zip(rows) {
-                *sum = *sum + factor * row;
+                *sum = T::sum(simd, *sum, T::product(simd, factor, row));
             }
         }
     }
     tile
 }
 
-/// Takes sums off eight entries, or fewer.
+/// Takes sums off a strip's entries, or fewer.
 #[inline(always)]
-fn subtract<S: Simd, const LANES: usize>(sums: &[Lanes<S>; LANES], entries: &mut [f64]) {
-    for (sum, entries) in sums.iter().zip(entries.chunks_mut(Lanes::<S>::COUNT)) {
-        (Lanes::read(sum.kind(), entries) - *sum).write(entries);
+fn subtract<T: Number, S: Simd, const LANES: usize>(
+    simd: S,
+    sums: &[T::Many<S>; LANES],
+    entries: &mut [T],
+) {
+    for (sum, entries) in sums.iter().zip(entries.chunks_mut(T::count::<S>())) {
+        let less = T::difference(simd, T::read(simd, entries), *sum);
+        T::write(simd, less, entries);
     }
 }
 
-/// The first eight numbers of a list.
+/// The first numbers of a list, as many as a strip has rows.
 #[inline(always)]
-fn eight<S: Simd, const LANES: usize>(simd: S, numbers: &[f64]) -> [Lanes<S>; LANES] {
-    let mut eight = [Lanes::of(simd, 0.0); LANES];
-    for (lanes, numbers) in eight
-        .iter_mut()
-        .zip(numbers.chunks_exact(Lanes::<S>::COUNT))
-    {
-        *lanes = Lanes::read(simd, numbers);
+fn strip<T: Number, S: Simd, const LANES: usize>(simd: S, numbers: &[T]) -> [T::Many<S>; LANES] {
+    let mut strip = [T::default().each(simd); LANES];
+    for (many, numbers) in strip.iter_mut().zip(numbers.chunks_exact(T::count::<S>())) {
+        *many = T::read(simd, numbers);
     }
-    eight
+    strip
 }
 
 #[cfg(test)]
@@ -328,11 +333,17 @@ mod tests {
     /// The widest lanes of this machine, and none.
     #[test]
     fn a_strip_and_a_tile_have_the_same_bits_in_any_lanes() {
-        let numbers: Vec<f64> = (0..997).map(|k| libm::sin(f64::from(k) * 1.7)).collect();
-        let (width, order, below) = (5, 21, 3);
-        let size = width * STRIP;
-        let triangle: Vec<f64> = numbers[..15].iter().map(|number| 2.0 + number).collect();
-        let solved = |by: fn(Solve<'_>)| {
+        same_bits_in_any_lanes::<f64>();
+        same_bits_in_any_lanes::<f32>();
+    }
+
+    fn same_bits_in_any_lanes<T: Number>() {
+        let number = |k| T::of(libm::sin(f64::from(k) * 1.7));
+        let numbers: Vec<T> = (0..997).map(number).collect();
+        let (width, order, below) = (5, 37, 3);
+        let size = width * T::WIDEST;
+        let triangle: Vec<T> = numbers[..15].iter().map(|n| T::of(2.0) + *n).collect();
+        let solved = |by: fn(Solve<'_, T>)| {
             let mut strip = numbers[..size].to_vec();
             by(Solve {
                 triangle: &triangle,
@@ -344,7 +355,7 @@ mod tests {
             solved(|work| widest(work)),
             solved(|work| work.with_simd(OneByOne))
         );
-        let updated = |by: fn(Update<'_>)| {
+        let updated = |by: fn(Update<'_, T>)| {
             let mut columns = numbers[..6 * order].to_vec();
             by(Update {
                 columns: &mut columns,
@@ -362,9 +373,28 @@ mod tests {
         );
     }
 
+    /// An error of 32 bits' rounding in each of the sums, not more.
+    #[test]
+    fn thirty_two_bits_give_the_same_columns_but_for_their_rounding() {
+        let numbers: Vec<f64> = (0..997).map(|k| libm::sin(f64::from(k) * 1.7)).collect();
+        let (order, pivots) = (117, 70);
+        let lower = lower(order, &numbers);
+        let matrix = &lower * lower.transpose();
+        let mut exact = matrix.as_slice().to_vec();
+        let mut short: Vec<f32> = exact.iter().map(|number| f32::of(*number)).collect();
+        assert!(factor(&mut exact, order, pivots) && factor(&mut short, order, pivots));
+        let mut greatest = 0.0_f64;
+        for column in 0..order {
+            for place in column * order + column..(column + 1) * order {
+                greatest = greatest.max((exact[place] - short[place].number()).abs());
+            }
+        }
+        assert!((1e-8..1e-5).contains(&greatest), "{greatest}");
+    }
+
     #[test]
     fn no_pivots_are_always_found_positive() {
-        assert!(factor(&mut [], 0, 0));
+        assert!(factor::<f64>(&mut [], 0, 0));
         assert!(factor(&mut [-1.0], 1, 0));
         assert!(!factor(&mut [0.0], 1, 1));
     }

@@ -11,6 +11,7 @@
 use super::{
     dense,
     dissection::{Neighbours, Part},
+    number::Number,
     stiffness::Stiffness,
     substitution::substitute,
 };
@@ -34,17 +35,17 @@ pub(super) struct Front {
     pub(super) halves: Vec<(Self, Vec<u32>)>,
 }
 
-/// A factored system.
+/// A factored system, in numbers of 64 bits, or of 32 where what it says is only to lead.
 #[derive(Debug)]
-pub(super) struct Factor {
-    root: Factored,
+pub(super) struct Factor<T> {
+    root: Factored<T>,
 }
 
 #[derive(Debug)]
-pub(super) struct Factored {
+pub(super) struct Factored<T> {
     /// Columns of L of the front's own nodes, over all its nodes (column-major); and after them, until
     /// the part above has taken it, what is left of the border.
-    pub(super) columns: Vec<f64>,
+    pub(super) columns: Vec<T>,
     pub(super) halves: Vec<Self>,
 }
 
@@ -119,7 +120,7 @@ fn place(node: u32, all: &[u32], rank: &[u32]) -> u32 {
     all.partition_point(|other| rank[*other as usize] < rank[node as usize]) as u32
 }
 
-impl Factor {
+impl<T: Number> Factor<T> {
     /// Factors a stiffness; `None` where it is not positive definite.
     pub(super) fn new(plan: &Plan, stiffness: &Stiffness) -> Option<Self> {
         let root = factor(&plan.root, stiffness, &plan.rank)?;
@@ -133,11 +134,11 @@ impl Factor {
 }
 
 /// Factors one front, and leaves the Schur complement of its border for the part above.
-fn factor(front: &Front, stiffness: &Stiffness, rank: &[u32]) -> Option<Factored> {
+fn factor<T: Number>(front: &Front, stiffness: &Stiffness, rank: &[u32]) -> Option<Factored<T>> {
     let mut halves = factor_halves(&front.halves, stiffness, rank)?;
     let order = 3 * front.nodes.len();
     let own = 3 * front.own;
-    let mut matrix = vec![0.0; order * order];
+    let mut matrix = vec![T::default(); order * order];
     assemble(front, stiffness, rank, &mut matrix);
     for ((half, places), factored) in front.halves.iter().zip(&mut halves) {
         let (order_below, own_below) = (3 * half.nodes.len(), 3 * half.own);
@@ -156,11 +157,11 @@ fn factor(front: &Front, stiffness: &Stiffness, rank: &[u32]) -> Option<Factored
     })
 }
 
-fn factor_halves(
+fn factor_halves<T: Number>(
     halves: &[(Front, Vec<u32>)],
     stiffness: &Stiffness,
     rank: &[u32],
-) -> Option<Vec<Factored>> {
+) -> Option<Vec<Factored<T>>> {
     if let [(one, _), (other, _)] = halves {
         let (one, other) = threads::both(
             || factor(one, stiffness, rank),
@@ -175,7 +176,7 @@ fn factor_halves(
 }
 
 /// Puts the front's own blocks of the stiffness in place.
-fn assemble(front: &Front, stiffness: &Stiffness, rank: &[u32], matrix: &mut [f64]) {
+fn assemble<T: Number>(front: &Front, stiffness: &Stiffness, rank: &[u32], matrix: &mut [T]) {
     let order = 3 * front.nodes.len();
     for (column, &node) in front.nodes[..front.own].iter().enumerate() {
         let (others, blocks) = stiffness.row(node as usize);
@@ -187,7 +188,7 @@ fn assemble(front: &Front, stiffness: &Stiffness, rank: &[u32], matrix: &mut [f6
             for c in 0..3 {
                 for r in 0..3 {
                     // Blocks stand at (earlier, later); the lower half wants (later, earlier).
-                    matrix[(3 * column + c) * order + 3 * row + r] += block[(c, r)];
+                    matrix[(3 * column + c) * order + 3 * row + r] += T::of(block[(c, r)]);
                 }
             }
         }
@@ -195,15 +196,15 @@ fn assemble(front: &Front, stiffness: &Stiffness, rank: &[u32], matrix: &mut [f6
 }
 
 /// What a half leaves over: the Schur complement of its border, behind its own columns.
-struct Rest<'a> {
-    matrix: &'a [f64],
+struct Rest<'a, T> {
+    matrix: &'a [T],
     order: usize,
     own: usize,
 }
 
-impl Rest<'_> {
+impl<T: Number> Rest<'_, T> {
     /// Adds it to the matrix of the front above, in which its nodes have these places.
-    fn add_to(&self, matrix: &mut [f64], order: usize, places: &[u32]) {
+    fn add_to(&self, matrix: &mut [T], order: usize, places: &[u32]) {
         // A front without nodes parts halves that share no force.
         let columns = self.matrix[self.own * self.order..].chunks_exact(self.order.max(1));
         for (j, column) in columns.enumerate() {
@@ -212,7 +213,7 @@ impl Rest<'_> {
             for (place, three) in places.iter().zip(threes).skip(j / 3) {
                 let at = target + 3 * *place as usize;
                 for (entry, value) in matrix[at..at + 3].iter_mut().zip(three) {
-                    *entry += value;
+                    *entry += *value;
                 }
             }
         }
@@ -317,7 +318,7 @@ mod tests {
             }
         }
 
-        fn factor(&self) -> Option<Factor> {
+        fn factor<T: Number>(&self) -> Option<Factor<T>> {
             let held: Vec<bool> = (0..self.nodes).map(|node| self.is_held(node)).collect();
             let pattern = Pattern::new(&self.neighbours, &held);
             let mut stiffness = Sum::new(pattern.into());
@@ -329,7 +330,7 @@ mod tests {
 
         /// The moves that answer forces.
         fn solve(&self, forces: &[Vec3]) -> Vec<Vec3> {
-            self.factor().unwrap().solve(&self.plan, forces)
+            self.factor::<f64>().unwrap().solve(&self.plan, forces)
         }
 
         fn is_held(&self, node: usize) -> bool {
@@ -405,12 +406,25 @@ mod tests {
             let most = 1.0 / block.symmetric_eigenvalues().max();
             let free = free as u32;
             system.blocks.push((free, free, Mat3::identity() * (-most * (1.0 - 1e-6))));
-            prop_assert!(system.factor().is_some());
+            prop_assert!(system.factor::<f64>().is_some());
             system.blocks.push((free, free, Mat3::identity() * (-most * 2e-6)));
-            prop_assert!(system.factor().is_none());
+            prop_assert!(system.factor::<f64>().is_none());
             system.blocks.push((free, free, Mat3::repeat(f64::NAN)));
-            prop_assert!(system.factor().is_none());
+            prop_assert!(system.factor::<f64>().is_none());
         }
+    }
+
+    #[test]
+    fn factors_in_32_bits_answer_as_those_in_64_but_for_their_rounding() {
+        let system = System::new([30, 20], 1.0, 0.1, 5);
+        let forces = Numbers(3).forces(system.nodes);
+        let exact = system.solve(&forces);
+        let rounded = system.factor::<f32>().unwrap();
+        let most = exact.iter().map(Vec3::amax).fold(0.0, f64::max);
+        let moves = rounded.solve(&system.plan, &forces);
+        let error = exact.iter().zip(&moves).map(|(a, b)| (a - b).amax());
+        let error = error.fold(0.0, f64::max) / most;
+        assert!((1e-9..1e-3).contains(&error), "{error}");
     }
 
     /// Large enough that halves run side by side and the topmost front is shared out.

@@ -44,6 +44,8 @@ const FINISHED: f64 = 1e-5;
 /// Lattices of more nodes than this are not factored: it takes n^1.5 operations, and 5 GB for
 /// 263,169.
 const MOST_FACTORED: usize = 300_000;
+/// Lattices of more nodes than this are led by factors in 32 bits: below, no one waits for them.
+const ROUNDED: usize = 10_000;
 /// Corrections after a joint step.
 const CORRECTIONS: usize = 3;
 /// All nodes are damped tenfold at most so often for a matrix that has no answer.
@@ -267,14 +269,17 @@ impl Joint {
     /// A stiffness by its factors: `None` where it is not positive definite; of the exact one, the shape
     /// is not known to be stable then.
     fn factored(&self, level: &Level<'_>, stiffness: &Stiffness) -> Option<Leader> {
-        if !has_factors(level) {
-            return None;
-        }
-        let plan = self.plan.get_or_init(|| match &self.way {
-            Way::Factors(plan) => Arc::clone(plan),
-            Way::Levels(_) => plan_of(level, &self.pattern).into(),
-        });
-        Leader::by_factors(plan, stiffness)
+        Leader::by_factors(self.plan(level)?, stiffness)
+    }
+
+    /// How a level's matrices are factored; `None` of one that is too large.
+    fn plan(&self, level: &Level<'_>) -> Option<&Arc<Plan>> {
+        has_factors(level).then(|| {
+            self.plan.get_or_init(|| match &self.way {
+                Way::Factors(plan) => Arc::clone(plan),
+                Way::Levels(_) => plan_of(level, &self.pattern).into(),
+            })
+        })
     }
 
     /// The exact stiffness by its factors, if it has them.
@@ -282,9 +287,15 @@ impl Joint {
         self.factored(level, &self.assembled(level, false))
     }
 
-    /// The stiffness without its negative directions by its factors, all nodes damped alike [1/cm].
+    /// The stiffness without its negative directions by its factors, all nodes damped alike [1/cm]. It
+    /// only leads, the energy judges where to: on a large lattice 32 bits are enough.
     pub(super) fn evenly_damped_leader(&self, level: &Level<'_>, damping: f64) -> Option<Leader> {
-        self.factored(level, &self.damped_as(level, true, |_| damping))
+        let matrix = self.damped_as(level, true, |_| damping);
+        if level.at.len() > ROUNDED {
+            Leader::by_rounded_factors(self.plan(level)?, &matrix)
+        } else {
+            self.factored(level, &matrix)
+        }
     }
 
     /// The exact stiffness, all nodes damped alike [1/cm].

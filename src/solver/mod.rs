@@ -16,6 +16,7 @@ mod march;
 mod model;
 mod moving;
 mod multigrid;
+mod number;
 mod packed;
 mod rest;
 mod start;

@@ -281,6 +281,25 @@ mod tests {
     }
 
     #[test]
+    fn what_rounding_to_32_bits_makes_indefinite_is_led_by_64() {
+        let bits = |ground: f64| {
+            let (way, positive) = chain(ground);
+            let Way::Factors(plan) = &way else {
+                panic!("it is small");
+            };
+            match Leader::by_rounded_factors(plan, &positive) {
+                Some(Leader::Rounded(..)) => 32,
+                Some(Leader::Factors(..)) => 64,
+                _ => 0,
+            }
+        };
+        assert_eq!(bits(0.1), 32);
+        assert_eq!(bits(-0.1), 0);
+        let soft: Vec<u32> = (1..40).map(|k| bits(1e-10 * f64::from(k))).collect();
+        assert!(soft.contains(&64) && !soft.contains(&0), "{soft:?}");
+    }
+
+    #[test]
     fn a_negative_direction_is_found_and_is_one() {
         let ((way, positive), (_, exact)) = (chain(1.0), chain(-0.02));
         let exact = packed(&exact);

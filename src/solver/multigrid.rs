@@ -255,7 +255,7 @@ pub(super) struct Multigrid {
     finest: Option<Visits>,
     /// On the levels below, but the coarsest.
     coarser: Vec<Visits>,
-    coarsest: Factor,
+    coarsest: Factor<f64>,
 }
 
 impl Multigrid {

@@ -3,6 +3,7 @@
 //!
 //! Each number is made of the same operations in the same order however many are taken at once.
 
+use super::number::Number;
 use super::stiffness::{Pattern, Stiffness};
 use crate::{
     lanes::{Simd, WIDEST, WithSimd, widest},
@@ -87,32 +88,6 @@ impl Layout {
     }
 }
 
-/// A number as it is stored.
-pub(super) trait Stored: Copy + Default + Send + Sync {
-    fn of(number: f64) -> Self;
-    fn number(self) -> f64;
-}
-
-impl Stored for f64 {
-    fn of(number: f64) -> Self {
-        number
-    }
-    #[inline(always)]
-    fn number(self) -> f64 {
-        self
-    }
-}
-
-impl Stored for f32 {
-    fn of(number: f64) -> Self {
-        number as Self
-    }
-    #[inline(always)]
-    fn number(self) -> f64 {
-        self.into()
-    }
-}
-
 /// Blocks in the order of a layout.
 #[derive(Debug)]
 pub(super) struct Packed<T> {
@@ -120,7 +95,7 @@ pub(super) struct Packed<T> {
     blocks: Vec<[Eight<T>; 9]>,
 }
 
-impl<T: Stored> Packed<T> {
+impl<T: Number> Packed<T> {
     pub(super) fn new(layout: &Arc<Layout>, matrix: &Stiffness) -> Self {
         let mut blocks = vec![[[T::default(); WIDEST]; 9]; layout.sources.len()];
         threads::for_each_part(&mut blocks, GRAIN, |first, part| {
@@ -216,7 +191,7 @@ impl<T: Stored> Packed<T> {
 #[derive(Debug)]
 pub(super) struct Inverses<T>(Vec<[Eight<T>; 9]>);
 
-impl<T: Stored> Inverses<T> {
+impl<T: Number> Inverses<T> {
     /// `None` where a row's own block is not positive definite.
     pub(super) fn new(layout: &Layout, matrix: &Stiffness) -> Option<Self> {
         let eights = threads::map(layout.rows.len(), |eight| {
@@ -233,7 +208,7 @@ impl<T: Stored> Inverses<T> {
     }
 }
 
-fn set<T: Stored>(blocks: &mut [Eight<T>; 9], lane: usize, block: &Mat3) {
+fn set<T: Number>(blocks: &mut [Eight<T>; 9], lane: usize, block: &Mat3) {
     for (k, numbers) in blocks.iter_mut().enumerate() {
         numbers[lane] = T::of(block[(k / 3, k % 3)]);
     }
@@ -241,7 +216,7 @@ fn set<T: Stored>(blocks: &mut [Eight<T>; 9], lane: usize, block: &Mat3) {
 
 /// Eight blocks times eight vectors.
 #[inline(always)]
-fn times<T: Stored>(blocks: &[Eight<T>; 9], x: &Ways) -> Ways {
+fn times<T: Number>(blocks: &[Eight<T>; 9], x: &Ways) -> Ways {
     let mut y = [[0.0; WIDEST]; 3];
     for (row, y) in y.iter_mut().enumerate() {
         for (lane, y) in y.iter_mut().enumerate() {
@@ -261,7 +236,7 @@ struct Eights<'a, T> {
     ways: &'a mut [Ways],
 }
 
-impl<T: Stored> WithSimd for Eights<'_, T> {
+impl<T: Number> WithSimd for Eights<'_, T> {
     type Output = ();
 
     #[inline(always)]
@@ -322,7 +297,7 @@ mod tests {
         (matrix.whole(), vec![even, odd])
     }
 
-    fn packed<T: Stored>(matrix: &Stiffness, groups: &[Vec<u32>]) -> Packed<T> {
+    fn packed<T: Number>(matrix: &Stiffness, groups: &[Vec<u32>]) -> Packed<T> {
         let layout = Layout::new(matrix.pattern(), groups.iter().map(Vec::as_slice));
         Packed::new(&layout.into(), matrix)
     }
