@@ -61,7 +61,7 @@ pub(super) fn plan_of(level: &Level<'_>, pattern: &Pattern) -> Plan {
 pub(super) enum Leader {
     /// By its factors.
     Factors(Arc<Plan>, Factor<f64>),
-    /// By its factors in 32 bits: in half the time and memory.
+    /// By its factors in 32 bits: in half the memory.
     Rounded(Arc<Plan>, Factor<f32>),
     /// By multigrid.
     Levels(Arc<Levels>, Multigrid),

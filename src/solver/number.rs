@@ -1,5 +1,5 @@
 //! Numbers as matrices store them: in 64 bits, or in 32 where what they lead to is checked by others
-//! and half the memory and time count for more than digits.
+//! and half the memory counts for more than digits.
 //!
 //! As in [`lanes`](crate::lanes), every operation acts on each number by itself and rounds as the same
 //! operation on one number does.

@@ -3,8 +3,10 @@
 //!
 //! Each number is made of the same operations in the same order however many are taken at once.
 
-use super::number::Number;
-use super::stiffness::{Pattern, Stiffness};
+use super::{
+    number::Number,
+    stiffness::{Pattern, Stiffness},
+};
 use crate::{
     lanes::{Simd, WIDEST, WithSimd, widest},
     math::{Mat3, Vec3},
