@@ -3,7 +3,8 @@
 //!
 //! 1. The derivative of all forces by all positions is assembled: the exact one, and one without
 //!    its negative directions, which leads.
-//! 2. The exact one is solved by its factors. Where it has none the shape is not stable: conjugate
+//! 2. The exact one is solved by its factors; on a large lattice by factors in 32 bits, whose answers
+//!    conjugate gradients put right. Where it has none the shape is not stable: conjugate
 //!    gradients seek the way down, and there is no step; nor where the step would be long: unless
 //!    other steps go even less far, then the energy's fall is followed as far as is trusted.
 //! 3. The step is cut to the trusted length, and each node to the way that bodies leave free. It is
@@ -44,7 +45,8 @@ const FINISHED: f64 = 1e-5;
 /// Lattices of more nodes than this are not factored: it takes n^1.5 operations, and 5 GB for
 /// 263,169.
 const MOST_FACTORED: usize = 300_000;
-/// Lattices of more nodes than this are led by factors in 32 bits: below, no one waits for them.
+/// On lattices of more nodes than this steps are by factors in 32 bits: below, no one waits for them.
+/// That a shape at rest is stable is proved by 64 on any.
 const ROUNDED: usize = 10_000;
 /// Corrections after a joint step.
 const CORRECTIONS: usize = 3;
@@ -257,13 +259,33 @@ impl Joint {
         rough: bool,
     ) -> Option<(Leader, Answer)> {
         let exact = self.assembled(level, false);
-        if let Some(factored) = self.factored(level, &exact) {
-            let moves = factored.answer(forces);
-            return Some((factored, Answer::Moves(moves)));
-        }
-        let leader = self.leader(level)?;
+        let leader = match self.factored_to_step(level, &exact, rough) {
+            Some(factored @ Leader::Factors(..)) => {
+                let moves = factored.answer(forces);
+                return Some((factored, Answer::Moves(moves)));
+            }
+            Some(rounded) => rounded,
+            None => self.leader(level)?,
+        };
         let answer = exact_answer(&leader, &self.packed(&exact), forces, far, rough);
         Some((leader, answer))
+    }
+
+    /// The factors that a step is found by. In 32 bits they lead to the exact answer in a few rounds; a
+    /// `rough` one is not worth 64 where rounding makes the matrix indefinite, if it is not so by itself.
+    fn factored_to_step(
+        &self,
+        level: &Level<'_>,
+        exact: &Stiffness,
+        rough: bool,
+    ) -> Option<Leader> {
+        if level.at.len() <= ROUNDED {
+            self.factored(level, exact)
+        } else if rough {
+            Leader::rounded(self.plan(level)?, exact)
+        } else {
+            Leader::by_rounded_factors(self.plan(level)?, exact)
+        }
     }
 
     /// A stiffness by its factors: `None` where it is not positive definite; of the exact one, the shape

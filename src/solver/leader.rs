@@ -93,13 +93,15 @@ impl Leader {
         Some(Self::Factors(Arc::clone(plan), Factor::new(plan, matrix)?))
     }
 
-    /// Of a matrix by its factors in 32 bits, or in 64 where rounding makes those indefinite; `None` where
-    /// it is not positive definite.
+    /// Of a matrix by its factors in 32 bits; `None` where it is not positive definite when rounded.
+    pub(super) fn rounded(plan: &Arc<Plan>, matrix: &Stiffness) -> Option<Self> {
+        Some(Self::Rounded(Arc::clone(plan), Factor::new(plan, matrix)?))
+    }
+
+    /// The same, or in 64 bits where rounding makes it indefinite; `None` where it is not positive
+    /// definite.
     pub(super) fn by_rounded_factors(plan: &Arc<Plan>, matrix: &Stiffness) -> Option<Self> {
-        match Factor::new(plan, matrix) {
-            Some(factor) => Some(Self::Rounded(Arc::clone(plan), factor)),
-            None => Self::by_factors(plan, matrix),
-        }
+        Self::rounded(plan, matrix).or_else(|| Self::by_factors(plan, matrix))
     }
 
     /// The moves [cm] that answer forces [gf], or nearly so; held nodes stay.
