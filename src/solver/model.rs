@@ -260,6 +260,40 @@ mod tests {
     }
 
     #[test]
+    fn what_factors_in_32_bits_answer_is_put_right() {
+        let (way, matrix) = chain(1e-4);
+        let Way::Factors(plan) = &way else {
+            panic!("it is small");
+        };
+        let left = |moves: &[Vec3]| {
+            let pushes = packed(&matrix).times(moves);
+            let lefts = pushes
+                .iter()
+                .zip(forces())
+                .map(|(push, force)| push - force);
+            longest(&lefts.collect::<Vec<_>>())
+        };
+        let leader = Leader::rounded(plan, &matrix).unwrap();
+        let rounded = leader.answer(&forces());
+        let Answer::Moves(moves) = exact_answer(&leader, &packed(&matrix), &forces(), 1e9, false)
+        else {
+            panic!("it is positive");
+        };
+        let exact = Leader::by_factors(plan, &matrix).unwrap().answer(&forces());
+        let off = |moves: &[Vec3]| {
+            let ways = moves.iter().zip(&exact).map(|(way, other)| way - other);
+            longest(&ways.collect::<Vec<_>>()) / longest(&exact)
+        };
+        assert!(
+            left(&moves) < 0.1 * left(&rounded),
+            "{} {}",
+            left(&moves),
+            left(&rounded)
+        );
+        assert!(off(&moves) < 1e-5, "{} {}", off(&moves), off(&rounded));
+    }
+
+    #[test]
     fn a_trusted_answer_is_the_exact_one_or_goes_as_far_as_is_trusted_and_downhill() {
         let energy = |moves: &[Vec3], exact: &Packed<f64>| {
             0.5 * dot(moves, &exact.times(moves)) - dot(moves, &forces())
