@@ -271,20 +271,20 @@ impl Joint {
         Some((leader, answer))
     }
 
-    /// The factors that a step is found by. In 32 bits they lead to the exact answer in a few rounds; a
-    /// `rough` one is not worth 64 where rounding makes the matrix indefinite, if it is not so by itself.
+    /// The factors that a step is found by: on a large lattice in 32 bits, since they only lead. Where
+    /// rounding makes the matrix indefinite, a `rough` answer is not worth those in 64.
     fn factored_to_step(
         &self,
         level: &Level<'_>,
-        exact: &Stiffness,
+        stiffness: &Stiffness,
         rough: bool,
     ) -> Option<Leader> {
         if level.at.len() <= ROUNDED {
-            self.factored(level, exact)
+            self.factored(level, stiffness)
         } else if rough {
-            Leader::rounded(self.plan(level)?, exact)
+            Leader::rounded(self.plan(level)?, stiffness)
         } else {
-            Leader::by_rounded_factors(self.plan(level)?, exact)
+            Leader::by_rounded_factors(self.plan(level)?, stiffness)
         }
     }
 
@@ -309,15 +309,11 @@ impl Joint {
         self.factored(level, &self.assembled(level, false))
     }
 
-    /// The stiffness without its negative directions by its factors, all nodes damped alike [1/cm]. It
-    /// only leads, the energy judges where to: on a large lattice 32 bits are enough.
+    /// The stiffness without its negative directions by its factors, all nodes damped alike [1/cm]. The
+    /// energy judges where it leads.
     pub(super) fn evenly_damped_leader(&self, level: &Level<'_>, damping: f64) -> Option<Leader> {
         let matrix = self.damped_as(level, true, |_| damping);
-        if level.at.len() > ROUNDED {
-            Leader::by_rounded_factors(self.plan(level)?, &matrix)
-        } else {
-            self.factored(level, &matrix)
-        }
+        self.factored_to_step(level, &matrix, false)
     }
 
     /// The exact stiffness, all nodes damped alike [1/cm].

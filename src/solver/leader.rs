@@ -1,5 +1,5 @@
 //! What leads the conjugate gradients of a joint step: the answer of a positive matrix, exact by its
-//! factors on a small lattice, near by multigrid on a large one.
+//! factors, nearly so by factors in 32 bits, near by multigrid.
 
 use super::{
     dissection::{Neighbours, dissect},
